@@ -6,6 +6,7 @@
 //! is never compiled. Never guesses silently, never does I/O.
 
 mod csv;
+mod decimals;
 mod dialect;
 mod dxf;
 mod foreign;

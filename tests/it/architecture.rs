@@ -154,6 +154,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("dialect", "says what a dialect is"),
+    ("decimals", "tells decimal points that stand for changed digits, for the dialects of cut files and plots"),
     ("ends", "finds the ends of runs by place, and blades that pass beside the cuts that they must meet there"),
     ("formats", "is the table of formats that are no dialect of ours"),
     ("foreign", "names the formats that are no dialect of ours"),

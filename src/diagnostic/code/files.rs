@@ -41,9 +41,13 @@ codes! {
     /// Codes that have no business in a cut.
     ISO_MISPLACED = error(Text, "iso/misplaced-code", "A code stands where it cannot: amid a cut, or behind a place in its block.", "A character of a place was changed, so that the knife would miss it or go elsewhere: X4000Y3H00 instead of X4000Y3000, or QX4000Y0, which parks. Transfer the file again.\n  X4000Y3000*M15*   is right; X4000Y300Q* is not.");
     /// A plunge at the end of another contour.
-    ISO_NO_START = error(Text, "iso/no-start", "The knife goes down where another contour has ended, though a piece or a label begins in between.", "The place where the new contour starts is lost, most likely in the text of a label whose `*` is missing: the knife would cut from the old piece into the new one. Transfer the file again.\n  M31*BACK*X5000Y0*M14*   is right; M31*BACKX5000Y0*M14* is not.");
+    ISO_NO_START = error(Text, "iso/no-start", "The knife goes down without a place behind a label whose text ends like one.", "The place where the new contour starts is lost, in the text of a label whose `*` is missing: the knife would cut from the old piece into the new one. Transfer the file again.\n  M31*BACK*X5000Y0*M14*   is right; M31*BACKX5000Y0*M14* is not.");
+    /// A plunge at the end of another contour, as some files have.
+    ISO_START_AT_END = warning(Spoils, Text, "iso/start-at-end", "The knife goes down where another contour or a hole is, though a piece or a label begins in between.", "Two contours may meet in a place, and then all is well. Otherwise the place where the second one starts is lost, and the knife cuts from the old piece into the new one. Look at the picture (-t svg).\n  N2*X5000Y0*M14*   starts elsewhere; N2*M14* starts where the last contour ends.");
     /// A decimal point among whole numbers.
-    ISO_POINT = error(Text, "iso/decimal-point", "A decimal point stands in one place of a cut in a file of whole numbers: a digit was changed.", "X4000Y3.00 leads elsewhere than X4000Y3000. Files whose numbers have decimals are read; in this one, none but that has any. Transfer it again.");
+    ISO_POINT = error(Text, "iso/decimal-point", "Decimal points with zeros behind them stand in few places of cuts in a file of whole numbers: digits were changed.", "X4000Y3.00 leads elsewhere than X4000Y3000. Files whose numbers have decimals are read; in this one, none but that has any. Transfer it again.");
+    /// A decimal that a program may have written.
+    ISO_LONE_POINT = warning(Spoils, Text, "iso/lone-decimal-point", "One place of a cut has a decimal point in a file of whole numbers, without zeros behind it.", "Programs that leave out zeros write X2000Y5000.5 for a place between two units, and it is read so. If a digit has become the point, the cut leads elsewhere: compare the picture (-t svg) with the marker.");
     /// A slit that goes nowhere.
     ISO_EMPTY_SLIT = warning(Spares, Text, "iso/empty-slit", "A slit that M19 begins ends where it begins: its tip is missing, and nothing is cut.", "The place between M19 and M15 is lost, and with it a notch. Look at the block that the message names, and transfer the file again.\n  M19*X1000Y60*M15*   is right; M19*M15* cuts nothing.");
     /// The same hole twice.
@@ -98,6 +102,8 @@ codes! {
     HPGL_ODD = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. Amid a line a number is lost, and then the file is refused (hpgl/lost-place); behind one that is closed nothing hangs on it.");
     /// Bytes that cannot be read, amid a line or before it.
     HPGL_LOST = error(Text, "hpgl/lost-place", "A line of a plot hangs on something that cannot be read, or an instruction that draws lacks numbers.", "A character was lost or changed amid an outline, so that it would miss a place, or start from another one. Transfer the file again and compare the sizes.");
+    /// A decimal that a program may have written.
+    HPGL_LONE_POINT = warning(Spoils, Text, "hpgl/lone-decimal-point", "One place of a line has a decimal point in a plot of whole numbers, without zeros behind it.", "Programs that leave out zeros write 2000,5000.5 for a place between two units, and it is read so. If a digit has become the point, the line leads elsewhere: compare the picture (-t svg) with the marker.");
     /// More numbers than an instruction takes.
     HPGL_NUMBERS = error(Text, "hpgl/too-many-numbers", "An instruction of a plot has more numbers than it takes: it may be a line whose mnemonic was changed.", "The places of a line behind another mnemonic draw nothing, so that a part or a mark would be lost. The hint names the instruction that was most likely meant. Transfer the file again, or mend the letter.\n  PT36400,400,36400,12400;   was PD36400,400,36400,12400;");
     /// Places in the air where nothing is drawn.

@@ -40,8 +40,7 @@ pub(super) fn of_plot(last: &Last, reader: &Reader<'_>, plotter: &Plotter) -> Op
     if plotter.is_gathering() || last.odd.is_some_and(|odd| reader.ends_with(odd)) {
         return None; // reported as what it is
     }
-    let moves =
-        matches!(instruction, Instruction::Up | Instruction::Down | Instruction::Absolute | Instruction::Relative);
+    let moves = instruction.is_move();
     let is_closing =
         matches!(instruction, Instruction::Page(_) | Instruction::Pen | Instruction::Initialize | Instruction::Begin);
     let name = if moves { reader.mnemonic_at(span) } else { String::new() };
@@ -50,7 +49,7 @@ pub(super) fn of_plot(last: &Last, reader: &Reader<'_>, plotter: &Plotter) -> Op
     } else if instruction == Instruction::Down && plotter.drawing.is_lifted() {
         format!("the file ends where {name} lowers the pen, and nothing is drawn")
     } else if moves && !plotter.is_drawing() && !plotter.is_parked() && reader.has_numbers(span) {
-        format!("the file ends where {name} has led the pen to a place, and nothing is drawn there")
+        format!("the file ends behind a {name} to a place: nothing is drawn there")
     } else if let Some(language) = reader.language().filter(|_| !is_closing) {
         let message = "the file enters HP-GL/2 here, and neither leaves it nor ends its page".to_owned();
         return Some(no_end(message, language));
@@ -67,7 +66,7 @@ fn no_end(message: String, span: Span) -> Diagnostic {
 
 /// Places in a row where the pen is up, and nothing is drawn.
 #[derive(Debug, Default)]
-pub(super) struct Uncut {
+pub(super) struct AirMoves {
     /// The places of the current row.
     places: Vec<[f64; 2]>,
     rows: Count,
@@ -78,7 +77,7 @@ const LEAST_PLACES: usize = 3;
 /// Number of places in which a way back is looked for: as many as most outlines have.
 const LOOKED_AT: usize = 1000;
 
-impl Uncut {
+impl AirMoves {
     /// Records the moves of an instruction with the pen up: their number, and the place that they lead to.
     pub(super) fn pass(&mut self, moves: usize, to: [f64; 2], span: Span) {
         if moves == 0 || moves == 1 && self.places.last() == Some(&to) {

@@ -95,6 +95,11 @@ pub(super) enum Tail {
 }
 
 impl Instruction {
+    /// True for PU, PD, PA and PR.
+    pub(super) fn is_move(self) -> bool {
+        matches!(self, Self::Up | Self::Down | Self::Absolute | Self::Relative)
+    }
+
     /// Content after its mnemonic.
     pub(super) fn tail(self) -> Tail {
         match self {
@@ -137,6 +142,31 @@ impl Instruction {
             | Self::Housekeeping
             | Self::Unknown => Tail::Numbers,
         }
+    }
+}
+
+/// True if the instruction with a mnemonic draws or writes at the place of the pen, or ends a page there.
+pub(super) fn serves_place(mnemonic: [u8; 2]) -> bool {
+    match instruction(mnemonic) {
+        Instruction::Down
+        | Instruction::Encoded
+        | Instruction::ArcAbsolute
+        | Instruction::ArcRelative
+        | Instruction::ArcThroughAbsolute
+        | Instruction::ArcThroughRelative
+        | Instruction::Circle
+        | Instruction::BezierAbsolute
+        | Instruction::BezierRelative
+        | Instruction::RectangleAbsolute
+        | Instruction::RectangleRelative
+        | Instruction::Wedge
+        | Instruction::Polygon
+        | Instruction::EdgePolygon
+        | Instruction::Page(_)
+        | Instruction::Label
+        | Instruction::PrintBuffer
+        | Instruction::Symbol => true,
+        _ => matches!(&mnemonic, b"FP" | b"RA" | b"RR" | b"UC" | b"WG" | b"XT" | b"YT"),
     }
 }
 
@@ -210,5 +240,7 @@ mod tests {
         assert_eq!(instruction(*b"VS"), Instruction::Housekeeping);
         assert!(matches!(instruction(*b"RA"), Instruction::LeftOut(_)));
         assert_eq!(instruction(*b"QQ"), Instruction::Unknown);
+        assert!([*b"PD", *b"CI", *b"RR", *b"XT", *b"LB"].into_iter().all(serves_place));
+        assert!(![*b"PU", *b"PA", *b"SP", *b"VS", *b"FT", *b"CP"].into_iter().any(serves_place));
     }
 }

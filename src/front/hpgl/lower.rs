@@ -5,13 +5,13 @@ mod figures;
 
 use super::encoded::{Body, Ending, Item};
 use super::ending::{self, Last};
-use super::instruction::Instruction;
+use super::instruction::{Instruction, serves_place};
 use super::lost;
 use super::page::{End, Pages};
-use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
+use super::plotter::{MOST_PENS, NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
-use super::tally::{Drawn, Tally};
+use super::tally::Tally;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
 use crate::ir::Drawing;
@@ -46,8 +46,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
     };
     lowering.run();
     lowering.end();
-    let Drawing { strokes, vertices, .. } = &lowering.plotter.drawing;
-    lowering.tally.report(Drawn { strokes: strokes.len(), places: vertices.len() }, lowering.out);
+    lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
     let mut drawing = lowering.plotter.drawing;
     drawing.texts = lowering.labels;
     drawing
@@ -76,8 +75,6 @@ struct Lowering<'a> {
     out: &'a mut Diagnostics,
 }
 
-/// Greatest pen number; a greater one is damage and is taken as no pen.
-const MOST_PENS: f64 = 999.0;
 /// Fraction bits of PE, of either sign; more are damage. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.)
 const FRACTION_BITS: std::ops::RangeInclusive<i64> = -26..=26;
 
@@ -88,7 +85,12 @@ impl Lowering<'_> {
             self.last = None;
             if let Statement::Instruction(instruction, mnemonic) = statement {
                 self.last = Some((instruction, span));
-                self.tally.crowded.see((instruction, mnemonic), span, &self.reader);
+                if !instruction.is_move() {
+                    self.tally.surplus.see(mnemonic, span, &self.reader);
+                }
+                if instruction == Instruction::Down || !instruction.is_move() && serves_place(mnemonic) {
+                    self.tally.air.settle();
+                }
             }
             match statement {
                 Statement::Instruction(Instruction::Unknown, mnemonic) => {
@@ -108,9 +110,6 @@ impl Lowering<'_> {
                 }
                 Statement::Instruction(instruction, _) => {
                     self.tally.sound();
-                    if !matches!(instruction, Instruction::Up | Instruction::Absolute | Instruction::Relative) {
-                        self.tally.uncut.settle();
-                    }
                     self.obey(instruction, span);
                 }
                 Statement::Reset => self.reset(span),
@@ -156,6 +155,7 @@ impl Lowering<'_> {
     fn reset(&mut self, span: Span) {
         self.pages.end(End::Afresh, self.plotter.drawing.strokes.len(), span);
         self.plotter.reset();
+        self.tally.air.settle();
         (self.heading, self.unsized_at, self.buffer) = (None, None, None);
     }
 
@@ -350,7 +350,7 @@ impl Lowering<'_> {
     fn pass(&mut self, span: Span) {
         let places = self.moves();
         if !self.plotter.is_gathering() {
-            self.tally.uncut.pass(places, self.plotter.at(), span);
+            self.tally.air.pass(places, self.plotter.at(), span);
         }
     }
 
@@ -363,6 +363,9 @@ impl Lowering<'_> {
             self.check(outcome, span);
             self.plotter.settle_by_mode();
             places += 1;
+        }
+        if self.plotter.is_drawing() {
+            self.tally.places += places;
         }
         places
     }

@@ -7,13 +7,12 @@
 //! [`reader`] parses statements with [`syntax`], [`escape`], [`label`] and [`encoded`]. [`instruction`] is the table of their
 //! meanings. [`decimal_comma`] detects files with decimal commas. [`mod@lower`] executes the statements with the [`plotter`],
 //! its [`scale`] and [`curve`]. [`mod@unit`] checks the size, [`page`] finds overlapping pages, [`tally`] counts ignored
-//! statements. [`lost`] handles lost characters, [`parameters`] and [`decimals`] find changed ones, [`ending`] files that are cut
+//! statements. [`lost`] handles lost characters, [`parameters`] finds changed mnemonics, [`ending`] files that are cut
 //! short.
 
 mod count;
 mod curve;
 mod decimal_comma;
-mod decimals;
 mod encoded;
 mod ending;
 mod escape;

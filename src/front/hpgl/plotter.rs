@@ -12,6 +12,8 @@ use crate::source::Span;
 const FIRST_PEN: u16 = 1;
 /// The number for no pen (SP0).
 pub(super) const NO_PEN: u16 = 0;
+/// Greatest pen number, as plotters have at most 256 pens; a greater one is damage and is taken as no pen.
+pub(super) const MOST_PENS: f64 = 256.0;
 /// Farthest place from the origin, mm: no table is a kilometre long.
 const FARTHEST: f64 = 1e6;
 /// Number of moves that curves and repeated polygons may add to one per byte of the file: a hundred times the need of the

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::count::Count;
-use super::decimals::Decimals;
-use super::ending::Uncut;
-use super::parameters::Crowded;
+use super::ending::AirMoves;
+use super::parameters::Surplus;
 use super::plotter::Refusal;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::decimals::Decimals;
 use crate::source::Span;
 
 /// Number of junk statements that ends reading if there are more of them than of sound ones: the file is not a plot.
@@ -43,16 +43,11 @@ pub(super) struct Tally {
     open_labels: Count,
     /// Places in lists of which a number is missing.
     gaps: Count,
-    pub(super) crowded: Crowded,
+    pub(super) surplus: Surplus,
     pub(super) decimals: Decimals,
-    pub(super) uncut: Uncut,
-}
-
-/// Number of strokes that a plot draws, and of their places.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Drawn {
-    pub(super) strokes: usize,
+    /// Number of places that the pen draws to, by their numbers in the file.
     pub(super) places: usize,
+    pub(super) air: AirMoves,
 }
 
 impl Tally {
@@ -133,8 +128,8 @@ impl Tally {
         self.junk.count + self.unknown_total > MOST_JUNK && self.is_junk()
     }
 
-    /// Reports all counts, with those of what was drawn.
-    pub(super) fn report(&self, Drawn { strokes, places }: Drawn, out: &mut Diagnostics) {
+    /// Reports all counts; `strokes` is the number of strokes that were drawn.
+    pub(super) fn report(&self, strokes: usize, out: &mut Diagnostics) {
         if self.is_hopeless() || (self.is_junk() && strokes == 0) {
             let message = format!(
                 "this is no plot: of its first {} statements {} are none",
@@ -147,9 +142,10 @@ impl Tally {
         }
         let mut found = Vec::new();
         self.say_of_places(&mut found);
-        found.extend(self.crowded.finding());
-        found.extend(self.decimals.finding(places));
-        found.extend(self.uncut.finding());
+        found.extend(self.surplus.findings());
+        let whole = self.places.saturating_sub(self.decimals.count());
+        found.extend(self.decimals.finding(&code::HPGL_LOST, &code::HPGL_LONE_POINT, |least| whole >= least));
+        found.extend(self.air.finding());
         self.say_of_statements(&mut found);
         found.sort_by_key(|finding| finding.span);
         for finding in found {

@@ -8,18 +8,19 @@ use super::alone::Alone;
 use super::arc::{Arc, Centre, Turn};
 use super::at_place::{AtPlace, Hole, Texts};
 use super::block::Blocks;
-use super::decimal::Decimals;
+use super::decimal;
 use super::draft::{Draft, LabelId};
 use super::meaning::{Meaning, meaning, name, whole};
 use super::misplaced::{self, Head};
 use super::run::Run;
-use super::start::{Start, Twice};
+use super::start::{Begun, Start, Twice};
 use super::syntax::{Code, Point};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
 use super::unit::{Sized, Unit, check_plausible, convert, convert_run, scale};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::decimals::Decimals;
 use crate::geom::{self, Vector};
 use crate::ir::Marker;
 use crate::ir::list::FULL_SPEED;
@@ -207,7 +208,7 @@ impl Lowering<'_> {
         }
         self.tally.report(self.out);
         self.alone.report(self.source.bytes(), self.out);
-        let found = [self.decimals.finding(self.source.bytes()), self.twice.finding()];
+        let found = [decimal::finding(&self.decimals, self.source.bytes()), self.twice.finding()];
         found.into_iter().flatten().for_each(|finding| self.out.push(finding));
         if marker.pieces.is_empty() && !self.out.has_errors() {
             let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill");
@@ -226,14 +227,15 @@ impl Lowering<'_> {
     /// Looks for damage in a block of coordinates only.
     fn see_place(&mut self, point: Point, span: Span) {
         self.alone.see(point, span);
-        self.decimals.see(self.source.slice(span), span);
+        if self.knife.is_down() {
+            self.decimals.see(self.source.slice(span), span);
+        }
     }
 
     /// Executes a block of coordinates only.
     fn go(&mut self, point: Point, span: Span) {
         if point.has_centre() {
-            self.arc(point, None, span);
-            return;
+            return self.arc(point, None, span);
         }
         let to = self.locate(point, span);
         self.go_to(to, span);
@@ -252,8 +254,7 @@ impl Lowering<'_> {
     fn land(&mut self, to: geom::Point, span: Span) {
         if let Some(hole) = self.waiting.take() {
             self.move_in_air(to, span);
-            self.drill(hole);
-            return;
+            return self.drill(hole);
         }
         let label = self.awaiting.take();
         self.move_in_air(to, span);
@@ -287,9 +288,9 @@ impl Lowering<'_> {
         for &code in codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
-                Meaning::Park | Meaning::BiteSize if self.knife.is_down() => {
+                Meaning::Park | Meaning::BiteSize if obeyed && self.knife.is_down() => {
                     asked.rests = true;
-                    self.out.push(misplaced::amid_cut(code, span));
+                    self.out.push(misplaced::amid_cut(code, point.is_some(), span));
                 }
                 Meaning::Park => asked.rests = true,
                 Meaning::BiteSize => {
@@ -388,7 +389,7 @@ impl Lowering<'_> {
             self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
         }
         if self.place != [None, None] && !self.knife.is_down() {
-            self.start.fault(span).into_iter().for_each(|fault| self.out.push(fault));
+            self.start.finding(span).into_iter().for_each(|finding| self.out.push(finding));
         }
         self.head.pass();
         // This position is the start of a contour, not the second point of a label.
@@ -399,9 +400,9 @@ impl Lowering<'_> {
     }
 
     /// Records a piece or a label: the contour behind it needs a start, unless an interrupted one goes on.
-    fn begin(&mut self, span: Span) {
+    fn begin(&mut self, begun: Begun, span: Span) {
         let is_amid = self.knife.is_down() || self.knife.is_at_open_end();
-        self.start.begin(span, is_amid);
+        self.start.begin(begun, span, is_amid);
     }
 
     /// H.
@@ -414,7 +415,7 @@ impl Lowering<'_> {
         self.settle_second_point();
         self.awaiting = None;
         self.head.pass();
-        self.begin(span);
+        self.begin(Begun::Piece, span);
         let number = code.number.and_then(whole);
         if number.is_none() && code.number.is_some() {
             self.tally.ignore(code, "piece number that is not a whole one", span);
@@ -444,8 +445,7 @@ impl Lowering<'_> {
         let from = self.knife.at();
         let to = self.locate(point, span);
         if !self.knife.is_down() {
-            self.land(to, span);
-            return;
+            return self.land(to, span);
         }
         let unit = self.unit.mm();
         let centre = if point.has_centre() {

@@ -31,20 +31,35 @@ pub(super) fn behind_place(
         b'H' | b'N' => true,
         // Radii stand behind the end of an arc; holes and parking are judged by themselves.
         b'M' | b'G' | b'D' | b'F' | b'R' => false,
+        // Post-processors of machine tools write spindle speeds, tools, dwells and a third centre beside a place.
+        b'S' | b'T' | b'P' | b'K' if code.number.is_some() => false,
         _ => cuts && !matches!(meaning(*code), Meaning::Park | Meaning::BiteSize),
     })?;
     let message = format!("{} stands behind the place of a block, where it has no meaning", name(code));
-    Some(fault(message, span))
+    Some(fault(message, "a digit, X, Y or `*`", code, span))
 }
 
-/// The fault of a block whose code parks the knife, or gives a size, while it cuts.
-pub(super) fn amid_cut(code: Code, span: Span) -> Diagnostic {
-    fault(format!("{} stands amid a cut, and the knife would miss a place", name(code)), span)
+/// The fault of a block whose code parks the knife, or gives a size, while it cuts. `has_point` tells whether the block has a
+/// point.
+pub(super) fn amid_cut(code: Code, has_point: bool, span: Span) -> Diagnostic {
+    let name = name(code);
+    if has_point {
+        let message = format!("{name} stands amid a cut, and the knife would miss a place");
+        fault(message, "a digit, X, Y or `*`", code, span)
+    } else {
+        fault(format!("{name} stands amid a cut, where it has no meaning"), "X, Y or another code", code, span)
+    }
 }
 
-fn fault(message: String, span: Span) -> Diagnostic {
+/// The fault of a code that something else may have become. The profile can switch known codes off.
+fn fault(message: String, origin: &str, code: Code, span: Span) -> Diagnostic {
     let finding = Diagnostic::new(&code::ISO_MISPLACED, message).at(span);
-    finding.hint("a digit, X, Y or `*` may have become this letter; transfer the file again")
+    let name = name(code);
+    if meaning(code) == Meaning::Unknown {
+        finding.hint(format!("{origin} may have become {name}; transfer the file again"))
+    } else {
+        finding.hint(format!("{origin} may have become {name}: transfer it again, or set `codes.{name} = \"ignore\"`"))
+    }
 }
 
 /// Numbers of the unit codes G70, G71 and G91.
@@ -88,6 +103,7 @@ impl Head {
 mod tests {
     use crate::diagnostic::Diagnostics;
     use crate::machine::Job;
+    use crate::machine::profile::CodeUse;
     use crate::source::Source;
 
     /// Checks the codes of the findings on a file with a whole piece behind `blocks`.
@@ -103,18 +119,41 @@ mod tests {
 
     #[test]
     fn letters_in_the_places_of_a_cut_are_told() {
-        for letter in ["H", "N", "L", "O", "E", "Q", "Z", "S", "K", "B", "C"] {
+        for letter in ["H", "N", "L", "O", "E", "Q", "Z", "U", "B", "C"] {
             check(&format!("X1000Y3{letter}00*"), &["iso/misplaced-code"]);
         }
         check("QX1000Y500*", &["iso/misplaced-code"]);
         check("Z1000Y500*", &["iso/misplaced-code"]);
         check("X1000Y500Q*", &["iso/misplaced-code"]);
+        check("Q*X1000Y500*", &["iso/misplaced-code"]);
         check("H43*", &["iso/file-number"]);
     }
 
     #[test]
+    fn the_profile_switches_off_codes_amid_a_cut() {
+        let file = "H1*G71*X0Y0*M14*X900Y0*QX900Y500*Q*X0Y900*X0Y0*M15*M0*";
+        let source = Source::new("a", file.as_bytes().to_vec()).expect("small");
+        let (mut job, mut out) = (Job::default(), Diagnostics::default());
+        crate::front::iso::lower::lower(&source, &job, &mut out);
+        let told: Vec<_> = out.iter().filter(|finding| finding.code.name == "iso/misplaced-code").collect();
+        assert_eq!(told.len(), 2);
+        assert!(told.iter().all(|finding| finding.hints.iter().any(|hint| hint.contains("codes.Q"))));
+        job.profile.codes.insert("Q".to_owned(), CodeUse::Ignore);
+        out = Diagnostics::default();
+        crate::front::iso::lower::lower(&source, &job, &mut out);
+        assert!(!out.has_errors());
+    }
+
+    #[test]
     fn codes_of_real_files_may_stand_beside_a_place() {
-        for sound in ["X1000Y500M26*", "G01X1000Y500F300*", "X1000Y500D1*", "L*X1000Y500*O*", "G03X1000Y500R400*G01*"] {
+        for sound in [
+            "X1000Y500M26*",
+            "G01X1000Y500F300*",
+            "X1000Y500D1*",
+            "L*X1000Y500*O*",
+            "G03X1000Y500R400*G01*",
+            "G01X1000Y500S100T1*",
+        ] {
             check(sound, &[]);
         }
     }

@@ -8,7 +8,8 @@
 //! Arcs become chords. [`block`] splits the bytes into blocks, plain ones in [`run`]s; [`syntax`] is the grammar of a block,
 //! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end. [`lower`]
 //! executes the file, [`draft`] assembles its cuts from [`chain`]s of vertices ([`vertex`]), [`lost`] finds signs of lost knife
-//! codes, [`alone`] of lost coordinates, [`start`] of lost starts, [`misplaced`] and [`decimal`] of changed characters, and [`owner`] assigns slits to pieces in files without piece numbers.
+//! codes, [`alone`] of lost coordinates, [`start`] of lost starts, [`misplaced`] and [`decimal`] of changed characters, and [`owner`]
+//! assigns slits to pieces in files without piece numbers.
 
 mod alone;
 mod arc;

@@ -10,8 +10,31 @@ use crate::source::Span;
 pub(super) struct Start {
     /// True if a place was given since the last lift or hole.
     has_moved: bool,
-    /// The piece or label that began without a place since then.
-    begun: Option<Span>,
+    /// The piece or label that began without a place since then, the more doubtful one of several.
+    begun: Option<(Begun, Span)>,
+}
+
+/// Beginning of something between two contours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Begun {
+    /// N.
+    Piece,
+    /// A label.
+    Label,
+    /// A label whose text ends like a place.
+    HoldsPlace,
+}
+
+impl Begun {
+    /// A label, by its text.
+    pub(super) fn label(text: &[u8]) -> Self {
+        let before = |text: &[u8], letter: u8| {
+            let at = text.iter().rposition(|byte| !byte.is_ascii_digit() && !b"+-.".contains(byte))?;
+            (text[at] == letter && at + 1 < text.len()).then_some(at)
+        };
+        let place = before(text, b'Y').and_then(|at| before(&text[..at], b'X'));
+        if place.is_some() { Self::HoldsPlace } else { Self::Label }
+    }
 }
 
 impl Start {
@@ -26,18 +49,26 @@ impl Start {
     }
 
     /// Records a piece or a label. `is_amid` is true where an interrupted contour may go on from.
-    pub(super) fn begin(&mut self, span: Span, is_amid: bool) {
-        if !self.has_moved && !is_amid {
-            self.begun = Some(span);
+    pub(super) fn begin(&mut self, begun: Begun, span: Span, is_amid: bool) {
+        let is_first = self.begun.is_none_or(|(before, _)| before < begun);
+        if !self.has_moved && !is_amid && is_first {
+            self.begun = Some((begun, span));
         }
     }
 
-    /// The fault of a plunge at a block, if something has begun and no place was given since.
-    pub(super) fn fault(&self, span: Span) -> Option<Diagnostic> {
-        let begun = self.begun?.block;
-        let message = format!("the knife goes down without a place since the piece or label in block {begun}");
-        let finding = Diagnostic::new(&code::ISO_NO_START, message).at(span);
-        Some(finding.hint("the place may stand in the text of a label whose `*` is lost; transfer the file again"))
+    /// The finding on a plunge at a block, if something has begun and no place was given since. A contour may start where the
+    /// last one has ended.
+    pub(super) fn finding(&self, span: Span) -> Option<Diagnostic> {
+        let (begun, Span { block, .. }) = self.begun?;
+        let what = if begun == Begun::Piece { "piece" } else { "label" };
+        let message = format!("the knife goes down without a place since the {what} in block {block}");
+        Some(if begun == Begun::HoldsPlace {
+            let finding = Diagnostic::new(&code::ISO_NO_START, message).at(span);
+            finding.hint("the place may stand in the text of the label, whose `*` is lost; transfer the file again")
+        } else {
+            let finding = Diagnostic::new(&code::ISO_START_AT_END, message).at(span);
+            finding.hint("the place where the contour starts may be lost: see it in the picture (-t svg)")
+        })
     }
 }
 
@@ -64,5 +95,20 @@ impl Twice {
         let message = format!("a hole is drilled again where the last one is; this happens {times}");
         let finding = Diagnostic::new(&code::ISO_DRILLED_TWICE, message).at(self.first?);
         Some(finding.hint("the place of another hole may be lost before it; count the holes"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_at_the_end_of_a_label_is_told_from_its_text() {
+        for text in ["BACKX3000Y0", "X-3000Y+0.5", "BACK X1Y2"] {
+            assert_eq!(Begun::label(text.as_bytes()), Begun::HoldsPlace, "{text}");
+        }
+        for text in ["", "BACK", "BACK X2", "SIZE 40", "XY", "X1Y", "XY1", "X1Y1 BACK"] {
+            assert_eq!(Begun::label(text.as_bytes()), Begun::Label, "{text}");
+        }
     }
 }

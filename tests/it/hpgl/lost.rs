@@ -244,6 +244,7 @@ fn places_that_are_passed_in_the_air_are_told_where_an_outline_may_be_lost() {
         "PU20000,0;PU;PA28000,0;PA28000,8000;PA20000,0;",
         "PU9000,0;PU20000,0;PU28000,0;PU28000,8000;PU20000,0;",
         "PU20000,0;PR8000,0,0,8000,-8000,-8000;",
+        "PU20000,0;VS40;PU28000,0;FS80;PU28000,8000;SP1;PU20000,0;",
     ] {
         assert!(is_told(moves), "{moves}");
     }
@@ -252,6 +253,7 @@ fn places_that_are_passed_in_the_air_are_told_where_an_outline_may_be_lost() {
         "PU20000,0;PU28000,0;PU28000,8000;",
         "PU20000,0;PU28000,0;PU20000,0;",
         "PU0,0;PA0,0;PU0,0;PU0,0;",
+        "PU20000,0;RR80,80;PU28000,0;WG80,0,360;PU28000,8000;XT;PU20000,0;RA20080,80;",
         "PU20000,0;PD20000,200;PU28000,0;PD28000,200;PU20000,0;PD20200,0;",
     ] {
         assert!(!is_told(moves), "{moves}");

@@ -61,6 +61,7 @@ impl Lowering<'_> {
                 self.tally.odd(start);
                 return self.incomplete(start);
             };
+            self.tally.places += 3 * usize::from(self.plotter.is_drawing());
             let span = start.to(end);
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
             let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);

@@ -3,6 +3,7 @@
 use super::Lowering;
 use crate::front::iso::at_place::Texts;
 use crate::front::iso::label;
+use crate::front::iso::start::Begun;
 use crate::front::iso::syntax::Point;
 use crate::front::iso::title::Title;
 use crate::geom::{self, Heading};
@@ -15,7 +16,7 @@ impl Lowering<'_> {
         self.awaiting = None;
         let text = label::read(&mut self.blocks, point);
         if let Some(span) = text.text {
-            self.begin(span);
+            self.begin(Begun::label(self.source.slice(span)), span);
         }
         let Some(span) = text.text.filter(|span| texts == Texts::Kept && span.start < span.end) else { return };
         let at = text.at.map(|at| self.peek(at));
