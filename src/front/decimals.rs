@@ -69,7 +69,9 @@ mod tests {
     fn points_that_programs_write_are_told_from_changed_digits() {
         let check = |texts: &[&str], whole: usize, told: Option<&'static Code>| {
             let mut decimals = Decimals::default();
-            texts.iter().for_each(|text| decimals.see(text.as_bytes(), Span::default()));
+            for text in texts {
+                decimals.see(text.as_bytes(), Span::default());
+            }
             let finding = decimals.finding(&HPGL_LOST, &HPGL_LONE_POINT, |least| whole >= least);
             assert_eq!(finding.map(|finding| finding.code.name), told.map(|code| code.name), "{texts:?}");
         };

@@ -81,7 +81,7 @@ pub(super) fn separators(i: &[u8]) -> usize {
 
 /// True if more than one comma stands before the next number: a number between them is lost.
 pub(super) fn has_gap(i: &[u8]) -> bool {
-    i[..separators(i)].iter().filter(|byte| **byte == b',').count() > 1
+    i[..separators(i)].split(|byte| *byte == b',').count() > 2
 }
 
 fn is_separator(byte: u8) -> bool {

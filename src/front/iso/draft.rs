@@ -273,7 +273,9 @@ impl Draft {
                 self.leave(index, Some(overcut));
             }
             State::Slit { ref points, span, .. } => {
-                lost::empty_slit(points.len(), span).into_iter().for_each(|finding| out.push(finding));
+                if let Some(finding) = lost::empty_slit(points.len(), span) {
+                    out.push(finding);
+                }
                 self.end_slit();
             }
         }

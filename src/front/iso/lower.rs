@@ -138,8 +138,9 @@ impl Lowering<'_> {
                         }
                         let (job, is_down) = (self.job, self.knife.is_down());
                         let obeys = |code| job.profile.codes.is_empty() || job.profile.obeys(&name(code));
-                        let fault = misplaced::behind_place(&words, is_down, block.span, obeys);
-                        fault.into_iter().for_each(|fault| self.out.push(fault));
+                        if let Some(fault) = misplaced::behind_place(&words, is_down, block.span, obeys) {
+                            self.out.push(fault);
+                        }
                         self.obey(&words.codes, words.point, block.span)
                     }
                     Err(fault) => {
