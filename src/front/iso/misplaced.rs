@@ -51,11 +51,12 @@ pub(super) fn amid_cut(code: Code, has_point: bool, span: Span) -> Diagnostic {
     }
 }
 
-/// The fault of a code that something else may have become. The profile can switch known codes off.
+/// The fault of a code that something else may have become. The profile can switch known codes off; without H and N the numbers
+/// of files and pieces would be lost.
 fn fault(message: String, origin: &str, code: Code, span: Span) -> Diagnostic {
     let finding = Diagnostic::new(&code::ISO_MISPLACED, message).at(span);
     let name = name(code);
-    if meaning(code) == Meaning::Unknown {
+    if meaning(code) == Meaning::Unknown || matches!(code.letter, b'H' | b'N') {
         finding.hint(format!("{origin} may have become {name}; transfer the file again"))
     } else {
         finding.hint(format!("{origin} may have become {name}: transfer it again, or set `codes.{name} = \"ignore\"`"))
