@@ -81,9 +81,10 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 31] = [
+const OTHERWISE: [(&str, &str); 32] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
+    ("circle-beside-decimals", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
     ("circles", "its chords are others"),
     ("corners-behind-the-scale", "it forgets the scale when corners follow"),
