@@ -43,6 +43,9 @@ struct Arc {
 /// Finds the parts that open lines enclose, other than the known ones that they run beside. A part that the budget leaves
 /// unsearched counts as enclosed by all of them.
 pub(super) fn find(all: Drawn, known: &[Remains], work: &mut Budget) -> Vec<Remains> {
+    if all.of(|line| !line.is_closed && line.is_open_question()).is_empty() {
+        return Vec::new(); // as in most
+    }
     let parts = all.parts();
     let open = open_lines(all, &parts, work);
     let cloth = box_around(all, &open);

@@ -132,7 +132,11 @@ pub(super) struct Surplus {
 impl Surplus {
     /// Counts the numbers that follow an instruction.
     pub(super) fn see(&mut self, mnemonic: [u8; 2], span: Span, reader: &Reader<'_>) {
-        let Some(arity) = ROWS.iter().find(|row| *row.mnemonic == mnemonic) else { return };
+        if let [b'P', b'U' | b'D' | b'A' | b'R'] = mnemonic {
+            return; // nearly all: moves, without a limit
+        }
+        let Ok(row) = ROWS.binary_search_by(|row| row.mnemonic.cmp(&mnemonic)) else { return };
+        let arity = &ROWS[row];
         let numbers = reader.numbers_ahead();
         if numbers > arity.most {
             self.count.add(span);
