@@ -37,7 +37,7 @@ impl Decimals {
     }
 
     /// The finding on them, if the file has many more places in whole numbers: `changed` where no program writes them, `lone`
-    /// on a single one without zeros at its end. `has_whole` tells whether the file has so many places in whole numbers.
+    /// on a single one without zeros at its end. `has_whole` is true if the file has that many places in whole numbers.
     pub(super) fn finding(
         &self,
         changed: &'static Code,

@@ -176,7 +176,7 @@ fn encloses(mut arcs: Vec<Arc>, widest: f64) -> bool {
     gap <= widest && seen >= LEAST_SEEN * TAU
 }
 
-/// Distance of the nearest of some walls in each direction from a place, mm; infinite where there is none.
+/// Distance of the nearest wall in each direction from a place, mm; infinite without one.
 fn hidden(all: Drawn, walls: &[usize], from: Point, work: &mut Budget) -> [f64; DIRECTIONS] {
     let mut hidden = [f64::INFINITY; DIRECTIONS];
     for &wall in walls {

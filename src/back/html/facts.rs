@@ -40,7 +40,7 @@ fn piece(piece: &Piece) -> Value {
     })
 }
 
-/// Places to mark, X and Y in mm: so many that they do not hide the cloth.
+/// Places to mark, X and Y in mm; their number is limited, so that they do not hide the cloth.
 fn places(all: impl Iterator<Item = Point>) -> Vec<[f64; 2]> {
     all.take(MOST_MARKS).map(|at| [at.x, at.y].map(rounded)).collect()
 }

@@ -14,7 +14,7 @@ pub(in crate::cli) struct Found {
     pub(in crate::cli) spoils: usize,
     /// Message of the worst finding, with its piece; empty if there is none.
     pub(in crate::cli) told: String,
-    /// Its first hint; empty if there is none.
+    /// First hint of the finding; empty without one.
     #[serde(default)]
     pub(in crate::cli) hint: String,
 }

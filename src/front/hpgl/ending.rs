@@ -72,7 +72,7 @@ pub(super) struct AirMoves {
     rows: Count,
 }
 
-/// Least number of places that an outline has: so many of one instruction, or a way back over so many, look like one.
+/// Least number of places of an outline: one instruction with as many, or a way back over as many, looks like one.
 const LEAST_PLACES: usize = 3;
 /// Number of places in which a way back is looked for: as many as most outlines have.
 const LOOKED_AT: usize = 1000;
