@@ -74,6 +74,11 @@ impl<'a> Cloth<'a> {
         self.parts.owners_at(place).contains(&self.part_of[piece])
     }
 
+    /// The part in which a place lies; `None` in the waste.
+    pub fn part_at(&self, place: Point) -> Option<u32> {
+        self.parts.owners_at(place).into_iter().next()
+    }
+
     /// The part in which a segment lies deepest, except for the part of the given piece; `None` when it is in none.
     pub fn deepest_other(&self, piece: usize, [from, to]: [Point; 2]) -> Option<u32> {
         let own = self.part_of.get(piece).copied().unwrap_or(piece as u32);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::cloth::Cloth;
 use super::plunge::{Plunge, WORTH_SHARE};
-use super::swing::swing;
+use super::swing::Swing;
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Declaration, Kind, Total, Which};
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
@@ -16,14 +16,21 @@ const SAME_EPSILON: f64 = 1e-6;
 /// Precision of declared values, steps per mm; magnitudes are rounded upwards. People read them.
 const PER_MM: f64 = 1000.0;
 
-/// Declarations of the toolpath of a cut on this cloth. `cut` is the index of the cut in the marker, `drawn` its line, which
-/// ends with its first point if it is closed.
-pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knife, cloth: &Cloth) -> Vec<Declaration> {
+/// Declarations of the toolpath of a cut on this cloth. `drawn` is the index of the cut in the marker and its line, which ends
+/// with its first point if it is closed; `swings` are those of its runs ([`super::swing::swings`]).
+pub fn declarations(
+    toolpath: &Toolpath,
+    (cut, drawn): (u32, &[Point]),
+    swings: &[Option<Swing>],
+    knife: &Knife,
+    cloth: &Cloth,
+) -> Vec<Declaration> {
     let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
     let mut of_cut = OfCut { toolpath, cut, drawn, knife, cloth, last: 0, found: Vec::new() };
+    let mut swings = swings.iter();
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => of_cut.run(run),
+            Step::Run(run) => of_cut.run(run, swings.next().expect("each run has its own")),
             Step::PlungeCut(plunge_cut) => of_cut.plunge_cut(plunge_cut),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
@@ -104,11 +111,12 @@ struct OfCut<'a> {
 }
 
 impl OfCut<'_> {
-    fn run(&mut self, run: &Run) {
+    fn run(&mut self, run: &Run, swing: &Option<Swing>) {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
-        if let Some(swing) = swing(run, self.knife.width_mm).filter(|swing| swing.off > self.knife.max_bow_mm) {
-            self.declare(Kind::Swing, ends, None, Magnitude { by: swing.off, at: run.points[swing.vertex] });
+        if let &Some(Swing { off, tip, at, .. }) = swing {
+            self.declare(Kind::Swing, ends, None, Magnitude { by: off, at: tip });
+            self.in_part(self.cloth.part_at(at));
         }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
         let stands_still = self.stands_still(run);
@@ -127,6 +135,7 @@ impl OfCut<'_> {
                 Side::Part if by > SAME_EPSILON => {
                     let at = which.of(&run.extended());
                     self.declare(Kind::Overcut, [station; 2], Some(which), Magnitude { by, at });
+                    self.in_part(Some(self.toolpath.part));
                 }
                 Side::Waste | Side::Part | Side::Gap => {}
             }

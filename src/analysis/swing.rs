@@ -1,31 +1,97 @@
 //! Swing: deviation of the body of a blade from a curve that its tip follows.
 
 use super::plunge::Plunge;
-use crate::geom::{Point, polyline};
-use crate::ir::toolpath::{OrientationMode, Run, Shape};
+use crate::geom::{Point, Vector, polyline};
+use crate::ir::toolpath::{Edge, OrientationMode, Pose, Run, Shape, Toolpath};
 use crate::machine::Knife;
 
 /// Distance before and behind a place between which its direction is taken, mm: nearer points show only their rounding.
 const LOOK: f64 = 0.5;
 /// Length of the path behind the tip that is examined, in blade widths.
 const BEHIND: f64 = 2.0;
+/// Travel of the tip between two poses of a motion that are examined, mm.
+const POSE_STEP: f64 = 0.2;
 
 /// Greatest swing of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
     /// Distance of the body from the line, mm.
     pub off: f64,
+    /// Place of the tip then.
+    pub tip: Point,
+    /// Place of the body, or of the line beside a chord, that is farthest off.
+    pub at: Point,
     /// Vertex of the run behind which it occurs.
     pub vertex: usize,
+}
+
+/// Swing of each run of a toolpath that exceeds `knife.max_bow_mm`, in the order of the runs. `poses` has the motion of each
+/// run, if it is planned: smoothing turns the blade before and behind a bend, and the heel is less far off than at the bend as
+/// drawn. Without a motion the line as drawn gives the swing.
+pub fn swings<P: Iterator<Item = Pose>>(
+    toolpath: &Toolpath,
+    knife: &Knife,
+    poses: impl Fn(usize) -> Option<P>,
+) -> Vec<Option<Swing>> {
+    let is_declared = |swing: &Swing| swing.off > knife.max_bow_mm;
+    let of_run = |(index, run): (usize, &Run)| {
+        let drawn = swing(run, knife.width_mm).filter(is_declared)?;
+        // A chord has both its ends on the line: smoothing changes little.
+        match poses(index).filter(|_| run.orientation == OrientationMode::Tangent) {
+            Some(poses) => moved(run, knife, poses).filter(is_declared),
+            None => Some(drawn),
+        }
+    };
+    toolpath.runs().enumerate().map(of_run).collect()
 }
 
 /// Greatest deviation of the body of a blade from a run that its tip follows, without the deviation at its plunge; `None` if
 /// there is none.
 pub fn swing(run: &Run, width: f64) -> Option<Swing> {
     let followed = Followed::new(run, width)?;
-    let swings = followed.vertices(0, 0.0).map(|vertex| Swing { off: followed.off(vertex, 0), vertex });
-    let worst = swings.reduce(|worst, next| if next.off > worst.off { next } else { worst })?;
+    let swings = followed.vertices(0, 0.0).map(|vertex| followed.swing(vertex, 0));
+    let worst = swings.reduce(Swing::greater)?;
     (worst.off > 0.0).then(|| Swing { vertex: worst.vertex % run.spans.len(), ..worst })
+}
+
+/// Greatest distance of the trailing end of a blade from a run along whose tangent it moves through these poses.
+fn moved(run: &Run, knife: &Knife, poses: impl Iterator<Item = Pose>) -> Option<Swing> {
+    let Followed { path, stations, from, width, .. } = Followed::new(run, knife.width_mm)?;
+    let chords = run.spans.len();
+    let [ahead, behind] = match run.edge {
+        Edge::Front => [knife.radius(), -knife.back()],
+        Edge::Back => [-knife.back(), knife.radius()],
+    };
+    // On a ring the blade has no lap behind it until it has left its plunge.
+    let (from, mut chord) = if run.shape == Shape::Ring { (from + width, chords) } else { (from, 0) };
+    let (mut last, mut worst): (Option<Point>, Option<Swing>) = (None, None);
+    for pose in poses {
+        let tip = pose.ahead(ahead);
+        if last.is_some_and(|last| (tip - last).norm() < POSE_STEP) {
+            continue;
+        }
+        last = Some(tip);
+        while chord + 1 < path.len() - 1 && polyline::foot(tip, path[chord], path[chord + 1]) >= 1.0 {
+            chord += 1;
+        }
+        let station = stations[chord] + (tip - path[chord]).norm();
+        if station < from {
+            continue;
+        }
+        let first = stations.partition_point(|&passed| passed < station - BEHIND * width).saturating_sub(1);
+        let at = pose.ahead(behind);
+        let off = polyline::distance(at, &path[first..=chord]).min(polyline::distance_to_segment(at, path[chord], tip));
+        let next = Swing { off, tip, at, vertex: chord % chords };
+        worst = Some(worst.map_or(next, |worst| worst.greater(next)));
+    }
+    worst
+}
+
+impl Swing {
+    /// The greater of two, the first of equal ones.
+    fn greater(self, next: Self) -> Self {
+        if next.off > self.off { next } else { self }
+    }
 }
 
 /// Vertices at which a blade must be lifted for its body to stay within `knife.max_swing_mm` of a run. For a ring only the
@@ -37,7 +103,8 @@ pub fn bends(run: &Run, knife: &Knife) -> Vec<usize> {
     let mut lifted = 0;
     // The heel plunges again that far before a lift.
     let heel = |lifted: usize| if lifted == 0 { 0.0 } else { knife.corner_heel_overlap_mm };
-    while let Some(next) = followed.vertices(lifted, heel(lifted)).find(|&vertex| followed.off(vertex, lifted) > limit)
+    while let Some(next) =
+        followed.vertices(lifted, heel(lifted)).find(|&vertex| followed.swing(vertex, lifted).off > limit)
     {
         bends.push(next % run.spans.len());
         if run.shape == Shape::Ring {
@@ -83,8 +150,8 @@ impl Followed {
         polyline::place_near(&self.path, &self.stations, station, vertex)
     }
 
-    /// Deviation of the body right behind a vertex, where it is greatest, mm, for a blade that was plunged at vertex `plunged`.
-    fn off(&self, vertex: usize, plunged: usize) -> f64 {
+    /// Deviation of the body right behind a vertex, where it is greatest, for a blade that was plunged at vertex `plunged`.
+    fn swing(&self, vertex: usize, plunged: usize) -> Swing {
         let station = self.stations[vertex] + LOOK;
         let tip = self.place(station, vertex);
         let first = self.stations.partition_point(|&passed| passed < station - BEHIND * self.width);
@@ -94,19 +161,24 @@ impl Followed {
         match self.orientation {
             OrientationMode::Tangent => {
                 let ends = [station - LOOK, station + LOOK].map(|station| self.place(station, vertex));
-                polyline::direction(ends[0], ends[1]).map_or(0.0, |along| {
-                    let heel = tip - along * self.width;
-                    polyline::distance(heel, behind).min(polyline::distance_to_segment(heel, self.path[vertex], tip))
-                })
+                let heel =
+                    tip - polyline::direction(ends[0], ends[1]).map_or(Vector::zeros(), |along| along * self.width);
+                let off =
+                    polyline::distance(heel, behind).min(polyline::distance_to_segment(heel, self.path[vertex], tip));
+                Swing { off, tip, at: heel, vertex }
             }
-            OrientationMode::Chord => chord_off(behind, tip, self.width),
+            OrientationMode::Chord => {
+                let (off, at) = chord_off(behind, tip, self.width);
+                Swing { off, tip, at, vertex }
+            }
         }
     }
 }
 
-/// Greatest distance of the path behind the tip from a blade that is its chord, mm.
-fn chord_off(behind: &[Point], tip: Point, width: f64) -> f64 {
+/// Greatest distance of the path behind the tip from a blade that is its chord, mm, and the point of the path there.
+fn chord_off(behind: &[Point], tip: Point, width: f64) -> (f64, Point) {
     let back: Vec<Point> = std::iter::once(tip).chain(behind.iter().rev().copied()).collect();
     let blade = Plunge::at_start(&back, width);
-    back[1..=blade.chord].iter().map(|&point| blade.distance(point)).fold(0.0, f64::max)
+    let away = back[1..=blade.chord].iter().map(|&point| (blade.distance(point), point));
+    away.fold((0.0, tip), |worst, next| if next.0 > worst.0 { next } else { worst })
 }

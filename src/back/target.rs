@@ -95,6 +95,8 @@ pub struct Outcome<'a> {
     pub is_judged: bool,
     /// Programs that the same compile writes to files; empty when they are refused.
     pub programs: &'a [Beside],
+    /// Time of a program among them that its controller plans for itself.
+    pub controller: Option<Estimate>,
 }
 
 /// Program that is written beside a page about it.

@@ -1,8 +1,8 @@
-//! Costs of a marker: machine time at an hourly rate, shared by plies and parts. Amounts have no currency.
+//! Options of costs: machine time at an hourly rate, shared by plies and parts. Amounts have no currency.
 
 use clap::Args;
 
-use crate::machine;
+use crate::machine::Price;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
 
 /// What one asks for on the command line.
@@ -45,50 +45,10 @@ impl Rate {
     }
 }
 
-/// Rate of the machine and number of plies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Price {
-    rate: Rate,
-    /// Number of plies cut at once, at least 1.
-    pub(super) plies: u32,
-}
-
-/// Costs of a marker, as amounts of money.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Costs {
-    /// Cost of all plies.
-    pub(super) marker: f64,
-    /// Cost of one ply.
-    pub(super) ply: f64,
-    /// Cost of one part in one ply; `None` if there are no parts.
-    pub(super) part: Option<f64>,
-}
-
 impl Pricing {
     /// The price, if costs are requested.
     pub(super) fn price(self) -> Option<Price> {
-        self.rate.map(|rate| Price { rate, plies: self.plies.unwrap_or(1) })
-    }
-}
-
-impl From<Price> for machine::Price {
-    fn from(Price { rate, plies }: Price) -> Self {
-        Self { per_s: rate.per_s, plies }
-    }
-}
-
-impl Price {
-    /// A price by an hourly rate, for tests.
-    #[cfg(test)]
-    pub(super) fn of(per_h: f64, plies: u32) -> Self {
-        Self { rate: Rate { per_s: per_h / S_PER_HOUR }, plies }
-    }
-
-    /// The costs of `pieces` pieces whose program takes `time_s` s.
-    pub(super) fn costs(&self, time_s: f64, pieces: usize) -> Costs {
-        let marker = time_s * self.rate.per_s;
-        let ply = marker / f64::from(self.plies);
-        Costs { marker, ply, part: (pieces > 0).then(|| ply / pieces as f64) }
+        self.rate.map(|rate| Price { per_s: rate.per_s, plies: self.plies.unwrap_or(1) })
     }
 }
 
@@ -104,13 +64,5 @@ mod tests {
         for text in ["45", "45/d", "-1/h", "inf/h", "EUR 45/h", "/h", ""] {
             assert!(Rate::parse(text).expect_err("refused").contains("45/h"), "{text}");
         }
-    }
-
-    #[test]
-    fn costs_are_shared_by_plies_and_parts() {
-        let price = Price::of(36.0, 10);
-        let costs = price.costs(500.0, 4);
-        assert_eq!((costs.marker, costs.ply, costs.part), (5.0, 0.5, Some(0.125)));
-        assert_eq!(price.costs(0.0, 0).part, None);
     }
 }

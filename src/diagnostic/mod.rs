@@ -184,7 +184,7 @@ impl<'a> IntoIterator for &'a Diagnostics {
 }
 
 /// Rank of a code, the worst first: errors, then harm to parts, then the rest, each by stages.
-fn rank(code: &Code) -> (Severity, Harm, usize) {
+pub fn rank(code: &Code) -> (Severity, Harm, usize) {
     let row = code::all().position(|other| other.name == code.name).unwrap_or(usize::MAX);
     (code.severity, code.harm, row)
 }

@@ -30,7 +30,8 @@ pub struct Declaration {
     pub part: Option<u32>,
     /// Magnitude, mm, as defined by the kind.
     pub magnitude_mm: f64,
-    /// Place on the cloth at which it is greatest: X and Y, mm. For people only: the verifier judges by the stretch.
+    /// Place on the cloth at which it is greatest, for a swing that of the tip: X and Y, mm. For people only: the verifier judges
+    /// by the stretch.
     #[serde(default)]
     pub at_mm: [f64; 2],
 }

@@ -72,7 +72,7 @@ pub use order::{Order, OrderPolicy};
 pub use origin::{Axis, Origin};
 pub use path::Fit;
 pub use profile::{FileUnit, MachineProfile};
-pub use remarks::{Price, Remarks};
+pub use remarks::{Costs, Price, Remarks};
 pub use schema::schema;
 pub use selection::{Mode, NotNumbers, NotStart, Numbers, Selection, Start};
 pub use sewing::Sewing;

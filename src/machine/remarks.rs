@@ -1,5 +1,9 @@
 //! Remarks on a job that a page prints and that do not affect the program.
 
+use std::fmt;
+
+use crate::units::number::fixed;
+
 /// Date, and costs of the machine.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Remarks {
@@ -16,4 +20,49 @@ pub struct Price {
     pub per_s: f64,
     /// Number of plies, at least one.
     pub plies: u32,
+}
+
+/// Costs of a marker, as amounts of money.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Costs {
+    /// Number of plies.
+    pub plies: u32,
+    /// Cost of all plies.
+    pub marker: f64,
+    /// Cost of one ply.
+    pub ply: f64,
+    /// Cost of one part in one ply; `None` if there are no parts.
+    pub part: Option<f64>,
+}
+
+impl Price {
+    /// The costs of `pieces` pieces whose program takes `time_s` s.
+    pub fn costs(&self, time_s: f64, pieces: usize) -> Costs {
+        let marker = time_s * self.per_s;
+        let ply = marker / f64::from(self.plies);
+        Costs { plies: self.plies, marker, ply, part: (pieces > 0).then(|| ply / pieces as f64) }
+    }
+}
+
+impl fmt::Display for Costs {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { plies, marker, ply, part } = *self;
+        let of = if plies == 1 { "1 ply".to_owned() } else { format!("{plies} plies") };
+        write!(f, "{} for {of}: {} a ply", fixed(marker, 2), fixed(ply, 3))?;
+        part.map_or(Ok(()), |part| write!(f, ", {} a part", fixed(part, 4)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn costs_are_shared_by_plies_and_parts() {
+        let price = Price { per_s: 0.01, plies: 10 };
+        let costs = price.costs(500.0, 4);
+        assert_eq!((costs.marker, costs.ply, costs.part), (5.0, 0.5, Some(0.125)));
+        assert_eq!(costs.to_string(), "5.00 for 10 plies: 0.500 a ply, 0.1250 a part");
+        assert_eq!(price.costs(0.0, 0).part, None);
+    }
 }

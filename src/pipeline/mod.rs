@@ -51,7 +51,7 @@ use self::judge::Asked;
 use self::program::{Plan, Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::analysis::declare;
-use crate::back::{Beside, Context, Emit, Outcome, PageWriter, Proof, SETPOINTS, Target};
+use crate::back::{Beside, Context, Emit, Estimate, Outcome, PageWriter, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
@@ -164,7 +164,8 @@ pub fn compile_all(
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
-    let known = Known { verdict: verdict.as_ref(), declared: &report.declared, deviations: &written.declared };
+    let (declared, deviations, controller) = (&report.declared[..], &written.declared[..], written.estimate);
+    let known = Known { verdict: verdict.as_ref(), declared, deviations, controller };
     finish(&context, (products, &mut pages), known, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
 }
@@ -222,13 +223,14 @@ struct Known<'a> {
     verdict: Option<&'a Verdict>,
     declared: &'a [Total],
     deviations: &'a [Declaration],
+    controller: Option<Estimate>,
 }
 
 /// Writes the tails of programs that show the verdict, and marks those that show a refused program.
 fn finish(
     context: &Context,
     (products, pages): (&mut [Product], &mut Pages),
-    Known { verdict, declared, deviations }: Known,
+    Known { verdict, declared, deviations, controller }: Known,
     diagnostics: &Diagnostics,
 ) -> io::Result<()> {
     let findings = verdict.map_or(&[][..], |verdict| &verdict.findings);
@@ -237,8 +239,17 @@ fn finish(
     let is_judged = verdict.is_some();
     let has_page = pages.0.iter().any(Option::is_some);
     let programs = if has_page && !diagnostics.has_errors() { beside(products)? } else { Vec::new() };
-    let outcome =
-        Outcome { findings, refusals, declared, doubts, messages, deviations, is_judged, programs: &programs };
+    let outcome = Outcome {
+        findings,
+        refusals,
+        declared,
+        doubts,
+        messages,
+        deviations,
+        is_judged,
+        programs: &programs,
+        controller,
+    };
     for (Product { target, out, shows_refusal, .. }, page) in products.iter_mut().zip(&mut pages.0) {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Some(page) = page {

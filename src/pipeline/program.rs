@@ -11,10 +11,11 @@ use super::report::{Axes, Program, Sides};
 use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
-use super::swings;
+use super::swings::warn;
 use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
+use crate::analysis::swing::swings;
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, PageWriter, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
@@ -125,7 +126,7 @@ impl Wanted<'_> {
     fn of(&self, Window { toolpaths, cuts: cuts_of, mut findings }: Window) -> Made {
         let count = cuts_of.iter().flatten().count();
         let planned = if self.motion { &toolpaths[..] } else { &[] };
-        let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
+        let cuts: Vec<_> = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let arcs = |interpolation: &Interpolation| {
             let solve = |toolpath: &Toolpath| {
                 let arcs = arcs::solve(toolpath, interpolation, self.job)?;
@@ -135,21 +136,19 @@ impl Wanted<'_> {
             toolpaths.par_iter().map(solve).collect()
         };
         let arcs = self.interpolations.iter().map(arcs).collect();
-        let declared = toolpaths.par_iter().zip(cuts_of).zip(&mut findings);
-        let declared = declared.filter_map(|((toolpath, cut), found)| Some((toolpath, cut?, self.cloth?, found)));
-        let declared = declared.flat_map_iter(|(toolpath, cut, cloth, found)| {
-            let declared = self.declarations(toolpath, cut, cloth);
-            swings::warn(toolpath, &declared, &self.job.profile.knife, found);
-            declared
+        let declared = (0..toolpaths.len()).into_par_iter().zip(cuts_of).zip(&mut findings);
+        let declared = declared.filter_map(|((place, cut), found)| Some((place, cut?, self.cloth?, found)));
+        let declared = declared.flat_map_iter(|(place, cut, cloth, found)| {
+            let (toolpath, knife) = (&toolpaths[place], &self.job.profile.knife);
+            let planned = cuts.get(place).and_then(|cuts| cuts.as_ref().ok());
+            let swings = swings(toolpath, knife, |run| Some(planned?[run].poses()));
+            warn(toolpath, &swings, knife, found);
+            let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
+            declare::declarations(toolpath, (cut, &drawn), &swings, knife, cloth)
         });
         let declared = declared.collect();
         self.advance.plan(count);
         Made { toolpaths, cuts, arcs, declared, findings }
-    }
-
-    fn declarations(&self, toolpath: &Toolpath, cut: u32, cloth: &Cloth) -> Vec<Declaration> {
-        let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
-        declare::declarations(toolpath, cut, &drawn, &self.job.profile.knife, cloth)
     }
 }
 
@@ -190,7 +189,14 @@ pub(super) fn write(
     let mut savings = None;
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
-    let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, advance, interpolations };
+    let wanted = Wanted {
+        job,
+        marker: context.marker,
+        cloth: linking.cloth().filter(|_| job.mode.cuts()),
+        motion,
+        advance,
+        interpolations,
+    };
     // Each stage has a window of its own, so that no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
     rayon::in_place_scope(|beside| {

@@ -388,9 +388,10 @@ impl Axes {
 }
 
 impl Report {
-    /// Time of the program, s, as planned here or as estimated for a controller; `None` when it was not planned.
+    /// Time of the program, s, as its controller plans it, or as planned here where no program is for such a controller; `None`
+    /// when it was not planned.
     pub fn time_s(&self) -> Option<f64> {
-        self.program.time_s.or(self.controller.map(|controller| controller.time_s))
+        self.controller.map(|controller| controller.time_s).or(self.program.time_s)
     }
 
     /// The report with the figures of planning.

@@ -249,7 +249,11 @@ fn a_folder_of_pages_has_an_overview() {
     let told = "<td>this is binary data, not a cutter file <code class=\"quiet\">source/unknown-format</code>";
     assert!(rows[0].contains(told) && rows[0].contains("it has no page"), "{}", rows[0]);
     assert!(rows[1].contains("data-name=\"May spoil parts\" data-value=\"4\">4</td>"), "{}", rows[1]);
-    assert!(rows[1].contains("<td>piece 1: ") && rows[1].contains("<p class=\"hint\">a narrower blade"), "{}", rows[1]);
+    assert!(
+        rows[1].contains("<td>piece 1, block 7: ") && rows[1].contains("<p class=\"hint\">a narrower blade"),
+        "{}",
+        rows[1]
+    );
     assert!(rows[2].contains("<td>verified</td>\n<td data-name=\"Made\">now</td>"), "{}", rows[3]);
     let digest = meta(&room, "out/circle.csv")["profile_sha256"].as_str().expect("a digest").to_owned();
     assert!(page.contains(&format!("Profile: default machine, SHA-256 of all values {digest}")));

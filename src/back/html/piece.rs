@@ -35,8 +35,8 @@ pub(super) struct Piece {
     pub(super) cut: f64,
     /// Its time and path lengths.
     pub(super) sums: Sums,
-    /// Number of messages that name it.
-    pub(super) messages: usize,
+    /// Messages that name it, by their index.
+    pub(super) messages: Vec<usize>,
     /// Index of its conveyor window, from 0; `None` where the cloth does not advance.
     pub(super) window: Option<usize>,
     /// Bounding box of its lines.
@@ -58,7 +58,7 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
     let pieces = (0..).zip(&context.marker.pieces).zip(&stations);
     let piece = |((part, piece), station): ((u32, &marker::Piece), &u32)| {
         let texts = texts(context, piece);
-        let is_about = |message: &&&Diagnostic| is_about(message, piece);
+        let is_about = |&message: &usize| is_about(outcome.messages[message], piece);
         let whole = if owners[part as usize] == part as usize { wholes.next() } else { None };
         Piece {
             whole: owners[part as usize],
@@ -70,7 +70,7 @@ pub(super) fn pieces(context: &Context, record: &Record, outcome: Outcome) -> Ve
             marks: whole.map(Marks::of).unwrap_or_default(),
             cut: context.marker.cut_length_of(part),
             sums: record.pieces[part as usize],
-            messages: outcome.messages.iter().filter(is_about).count(),
+            messages: (0..outcome.messages.len()).filter(is_about).collect(),
             window: windows.iter().position(|window| window == station).filter(|_| is_moved),
             extent: whole.map_or(Extent::EMPTY, |whole| extent(context, whole)),
         }

@@ -7,8 +7,8 @@ use super::figures::Figures;
 use super::found::Found;
 use super::manifest::Standing;
 use crate::cli::options::counted;
-use crate::cli::price::{Costs, Price};
 use crate::cli::times::clock;
+use crate::machine::{Costs, Price};
 use crate::units::number::fixed;
 
 /// Maximum columns of a file name. Longer names are cut at the start.
@@ -288,7 +288,7 @@ mod tests {
           all        16   24.7  2:02        8    2.400  2000 x 1500    80.0
         3 files, 2 done, 1 failed
         ");
-        insta::assert_snapshot!(told(Some(Price::of(36.0, 5))), @r"
+        insta::assert_snapshot!(told(Some(Price { per_s: 0.01, plies: 5 })), @r"
           file   pieces  cut m  time  notches  area m2     cloth mm  used %  cost  a ply  a part  worst finding
           a.cut       8   12.3  1:01        4    2.400  2000 x 1500    80.0  0.61  0.122  0.0153
           c.cut       8   12.3  1:01        4    0.000     0 x 1500          0.61  0.122  0.0153

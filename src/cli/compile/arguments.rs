@@ -10,7 +10,7 @@ use crate::cli::choices::{self, Format};
 use crate::cli::finished::{Finished, failure};
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
 use crate::cli::price::Pricing;
-use crate::machine::{Job, Price, Remarks};
+use crate::machine::{Job, Remarks};
 
 /// Arguments of `cutc compile`.
 #[derive(Debug, Args)]
@@ -128,7 +128,7 @@ impl Making {
 
     /// Remarks for a page.
     fn remarks(&self) -> Remarks {
-        Remarks { date: self.date.clone(), price: self.pricing.price().map(Price::from) }
+        Remarks { date: self.date.clone(), price: self.pricing.price() }
     }
 
     /// Refuses remarks if no page prints them.

@@ -10,7 +10,7 @@ use crate::cli::batch::{Found, Row, Standing, State};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::cannot_write;
 use crate::cli::finished::failure;
-use crate::machine::Job;
+use crate::machine::{Job, Price};
 use crate::picture::{Columns, Markup, Page, Script};
 use crate::units::number::{clock, counted, fixed};
 
@@ -20,7 +20,7 @@ const NAME: &str = "index.html";
 const MARK: &str = "<main id=\"overview\">";
 
 /// Columns of the table; `#` before a name marks a column of numbers.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "File",
     "Worst finding",
     "Verdict",
@@ -31,6 +31,8 @@ const COLUMNS: [&str; 10] = [
     "#Pieces",
     "#Lines, m",
     "#Time",
+    // With a price only.
+    "#Cost",
 ];
 
 /// A row of the table, and the path of its page.
@@ -101,14 +103,18 @@ impl<'a> Overview<'a> {
         let worth = if failed == 0 { "verified" } else { "refused" };
         out.element("p", &[("class", "worth"), ("data-worth", worth)], &said);
         let sum = |of: fn(&Row) -> Option<f64>| rows.iter().filter_map(|(row, _)| of(row)).sum::<f64>();
-        let summary =
-            format!("{} m of lines to cut, {}", fixed(sum(|row| row.cut_m), 2), clock(sum(|row| row.time_s), 1));
+        let time = sum(|row| row.time_s);
+        let price = job.remarks.price;
+        let pieces = rows.iter().filter_map(|(row, _)| row.pieces).sum();
+        let cost = price.map(|price| format!("; cost {}", price.costs(time, pieces)));
+        let lines = fixed(sum(|row| row.cut_m), 2);
+        let summary = format!("{lines} m of lines to cut, {}{}", clock(time, 1), cost.unwrap_or_default());
         out.element("p", &[("class", "summary")], &summary).close("header");
         out.markup(MARK).open("section", &[]);
         let profile = format!("Profile: {}, SHA-256 of all values {}", job.origin.described(), job.profile.digest());
         out.element("p", &[("class", "hint")], &profile).open("div", &[("class", "scroll")]);
         out.open("table", &[("class", "sortable")]).open("thead", &[]).open("tr", &[]);
-        for column in COLUMNS {
+        for column in COLUMNS.into_iter().take(COLUMNS.len() - usize::from(price.is_none())) {
             let (class, name) = column.strip_prefix('#').map_or(("", column), |name| ("number", name));
             out.element("th", &[("scope", "col"), ("class", class)], name);
         }
@@ -119,14 +125,14 @@ impl<'a> Overview<'a> {
             Reverse((*state == State::Failed, found.spoils, found.warnings))
         });
         for (row, page) in rows {
-            self.row(row, page, &mut out);
+            self.row(row, page, price, &mut out);
         }
         out.close("tbody").close("table").close("div").close("section").close("main");
         out.into_text()
     }
 
-    fn row(&self, row: &Row, page: &Path, out: &mut Markup) {
-        let Found { errors, warnings, spoils, told, hint } = &row.found;
+    fn row(&self, row: &Row, page: &Path, price: Option<Price>, out: &mut Markup) {
+        let Found { errors, warnings, spoils, .. } = &row.found;
         let (class, made) = match row.state {
             State::Done => ("", "now"),
             State::Unchanged => ("", "unchanged"),
@@ -139,18 +145,7 @@ impl<'a> Overview<'a> {
             out.text(&row.file);
         }
         out.close("td");
-        // The message, and behind it the code, which is all there is of what cannot be read.
-        out.open("td", &[]).prose(if told.is_empty() { &row.worst } else { told });
-        if !told.is_empty() {
-            out.text(" ").element("code", &[("class", "quiet")], &row.worst);
-        }
-        if !hint.is_empty() {
-            out.open("p", &[("class", "hint")]).prose(hint).close("p");
-        }
-        if !page.exists() {
-            out.element("p", &[("class", "hint")], "it has no page");
-        }
-        out.close("td");
+        told(row, page, out);
         let verdict = match row.verdict {
             Some(Standing::Verified) => "verified",
             Some(Standing::Unverified) => "not verified",
@@ -171,8 +166,40 @@ impl<'a> Overview<'a> {
         }
         number(row.cut_m.map(|metres| fixed(metres, 3)), row.cut_m);
         number(row.time_s.map(|time| clock(time, 1)), row.time_s);
+        if let Some(price) = price {
+            let cost = row.costs(price).map(|costs| costs.marker);
+            number(cost.map(|cost| fixed(cost, 2)), cost);
+        }
         out.close("tr");
     }
+}
+
+/// Cell of what was found: the message, and behind it the code, which is all there is of what cannot be read; then what to do,
+/// and further errors.
+fn told(row: &Row, page: &Path, out: &mut Markup) {
+    let Found { errors, told, hint, more, .. } = &row.found;
+    out.open("td", &[]).prose(if told.is_empty() { &row.worst } else { told });
+    if !told.is_empty() {
+        out.text(" ").element("code", &[("class", "quiet")], &row.worst);
+    }
+    if !hint.is_empty() {
+        out.open("p", &[("class", "hint")]).prose(hint).close("p");
+    }
+    if !more.is_empty() {
+        out.open("ul", &[]);
+        for told in more {
+            out.open("li", &[]).prose(told).close("li");
+        }
+        out.close("ul");
+    }
+    if let left @ 1.. = errors.saturating_sub(1 + more.len()) {
+        out.element("p", &[("class", "hint")], &format!("and {}", counted(left, "further error")));
+    }
+    if !page.exists() {
+        let words = "it has no page: nothing of it can be drawn; cutc check tells all that is wrong";
+        out.element("p", &[("class", "hint")], words);
+    }
+    out.close("td");
 }
 
 /// Index of the page among the targets of a file; `None` if no target is a page.

@@ -5,8 +5,8 @@ use serde_json::Value;
 
 use super::arguments::DIGITS;
 use crate::cli::batch::{self, Row, State};
-use crate::cli::price::Price;
 use crate::cli::report::pretty;
+use crate::machine::Price;
 use crate::pipeline::significant;
 use crate::units::number::{exact, fixed};
 

@@ -221,9 +221,9 @@ class Cloth {
     if (this.shown.travels) this.drawTravels(to, tick);
     if (this.shown.marks) this.drawMarks(to);
     this.drawWindow(to, tick);
+    this.drawRuler(to);
     this.drawTip(to, tick);
     if (this.motion.end > 0) this.drawBlade(to, tick);
-    this.drawRuler(to);
   }
 
   /**

@@ -153,7 +153,7 @@ class Player extends Stage {
     const [ofX, ofY, ofC] = motion.limits(phase).map(([most]) => Math.round(most));
     this.say("speed", `${Math.round(speed)} mm/s: X ${inX}/${ofX} mm/s, Y ${inY}/${ofY}, C ${inC}/${ofC}°/s`);
     this.say("part", this.isAside ? "the blade does not pass the place that is shown"
-      : `${named(piece)}, cut ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
+      : `${named(piece)}, ${motion.unit} ${motion.cutsBegun(tick)} of ${motion.cuts.length}`);
     this.scrub.value = String(Math.round(tick));
     this.scrub.setAttribute("aria-valuetext", motion.clock(tick, 1));
   }
@@ -204,7 +204,7 @@ function showLegend({ colours, words, bounds }) {
 
 /** What each key does. @param {Player} player @returns {Record<string, () => void>} */
 function keys(player) {
-  const { motion } = player;
+  const { motion } = player, list = element("keys", HTMLDetailsElement);
   const toggle = (/** @type {string} */ id) => element(id, HTMLInputElement).click();
   return {
     "ArrowRight": () => player.step(motion.cuts, 1),
@@ -220,7 +220,7 @@ function keys(player) {
     "l": () => toggle("aside"),
     "p": () => toggle("names"),
     "m": () => toggle("marks"),
-    "?": () => element("keys", HTMLElement).click(),
+    "?": () => list.toggleAttribute("open") && list.scrollIntoView({ block: "nearest" }),
     "n": () => player.nextPlace(1),
     "Shift+N": () => player.nextPlace(-1),
   };

@@ -38,6 +38,8 @@ class Motion {
       if (columns.phase_part[phase] !== part) this.pieces.push(phase);
       part = columns.phase_part[phase];
     });
+    /** Name of what is counted. */
+    this.unit = columns.phase_kind.some(kind => kind > KIND.drill) ? "cut or hole" : "cut";
     this.starts = Float64Array.from(this.cuts, phase => this.start(phase));
   }
 

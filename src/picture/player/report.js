@@ -29,8 +29,7 @@ function makeSortable() {
     const heads = [...table.querySelectorAll("thead th")];
     heads.forEach((head, column) => {
       const button = document.createElement("button");
-      button.type = "button";
-      button.textContent = head.textContent;
+      Object.assign(button, { type: "button", textContent: head.textContent });
       head.replaceChildren(button);
       button.addEventListener("click", () => {
         // Numbers begin with the greatest, texts with A.
@@ -46,17 +45,15 @@ function makeSortable() {
   }
 }
 
-/** A field whose words the rows that are shown hold. @param {HTMLTableSectionElement} body */
+/** A field whose words, and numbers as a whole, the rows that are shown hold. @param {HTMLTableSectionElement} body */
 function searchField(body) {
   const field = document.createElement("input");
-  field.type = "search";
-  field.placeholder = "Search";
-  field.setAttribute("aria-label", "Search the rows");
+  Object.assign(field, { type: "search", placeholder: "Search", ariaLabel: "Search the rows" });
   field.addEventListener("input", () => {
     const words = field.value.toLowerCase().split(/\s+/);
     for (const row of body.rows) {
-      const text = row.textContent?.toLowerCase() ?? "";
-      row.hidden = !words.every(word => text.includes(word));
+      const text = [...row.cells].map(cell => cell.textContent).join(" ").toLowerCase(), all = text.split(/[^\d.]+/);
+      row.hidden = !words.every(word => /^\d+$/.test(word) ? all.includes(word) : text.includes(word));
     }
   });
   return field;
@@ -72,9 +69,11 @@ function jumps() { return document.querySelectorAll("button.jump"); }
 function linkPieces(go) {
   for (const row of pieceRows()) {
     row.tabIndex = 0;
-    row.addEventListener("click", () => go(Number(row.dataset.part)));
+    row.addEventListener("click", ({ target }) => {
+      if (!(target instanceof Element && target.closest("details"))) go(Number(row.dataset.part));
+    });
     row.addEventListener("keydown", event => {
-      if (event.key === "Enter") row.click();
+      if (event.key === "Enter" && event.target === row) row.click();
     });
   }
 }

@@ -4,9 +4,10 @@ use super::table;
 use crate::back::html::about::{About, Worth, is_finite, place as place_of};
 use crate::back::html::piece::Piece;
 use crate::diagnostic::pieces::listed;
-use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code};
+use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code, rank};
 use crate::geom::Point;
 use crate::ir::Finding;
+use crate::ir::declaration::{Kind, Total};
 use crate::picture::Markup;
 use crate::units::number::{clock, counted, exact, fixed, short};
 
@@ -59,7 +60,7 @@ struct Group<'a> {
     messages: Vec<&'a Diagnostic>,
 }
 
-/// Groups messages by code, errors first, then warnings of harm to parts; within a code the worst first, where measured.
+/// Groups messages by code, the worst code first as everywhere; within a code the worst first, where measured.
 fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
     for &message in messages {
@@ -68,7 +69,7 @@ fn groups<'a>(messages: &[&'a Diagnostic]) -> Vec<Group<'a>> {
             None => groups.push(Group { code: message.code, messages: vec![message] }),
         }
     }
-    groups.sort_by_key(|group| (group.code.severity, group.code.harm));
+    groups.sort_by_key(|group| rank(group.code));
     for group in &mut groups {
         group.messages.sort_by(|a, b| b.by.unwrap_or(0.0).total_cmp(&a.by.unwrap_or(0.0)));
     }
@@ -254,6 +255,19 @@ fn is_one(a: Point, b: Point) -> bool {
 /// nearest to its own limit, often at another place.
 fn deepest(about: &About, finding: &Finding, out: &mut Markup) {
     let Some((_, code)) = OVERCUTS.iter().find(|(name, _)| *name == finding.rule.name) else { return };
+    if finding.worst < NOISE_EPSILON {
+        // A declared overlap that ends within the tolerance of an edge is no depth.
+        let overlaps =
+            about.outcome.declared.iter().find(|total| total.kind == Kind::Overcut && *code == &code::PATH_OVERCUT);
+        if let Some(Total { count, worst_mm, .. }) = overlaps {
+            let declared = counted(*count, "overlap");
+            let words = format!(
+                "{declared} into parts declared, at most {} mm long: as deep as the tolerance counts as the edge",
+                fixed(*worst_mm, 2)
+            );
+            out.element("p", &[("class", "hint")], &words);
+        }
+    }
     let messages = about.outcome.messages.iter().filter(|message| message.code == *code);
     let Some((message, by)) = deepest_of(messages) else { return };
     let into = if message.pieces.is_empty() { String::new() } else { format!(" into {}", listed(&message.pieces)) };

@@ -1,6 +1,7 @@
 //! The report: markup that describes the job and lists everything to check before cutting.
 
 mod findings;
+mod lines;
 mod pieces;
 mod table;
 mod totals;
@@ -35,6 +36,7 @@ pub(super) fn body(about: &About) -> String {
     out.open("main", &[("id", "report")]);
     job(about, &mut out);
     totals::section(about, &mut out);
+    lines::section(about, &mut out);
     findings::messages(about, &mut out);
     findings::section(about, &mut out);
     pieces::section(about, &mut out);
@@ -57,7 +59,7 @@ fn tally(about: &About, out: &mut Markup) {
     } else {
         out.element("a", &[("href", "#messages")], &said.join(", "));
     }
-    out.close("p");
+    out.close("p").open("p", &[("class", "to")]).element("a", &[("href", "#report")], "report").close("p");
 }
 
 /// Judgement of the program in a line.

@@ -1,6 +1,6 @@
 //! Tables of the pieces and of the windows of a conveyor.
 
-use super::table;
+use super::table::{self, Cells};
 use super::totals::limit;
 use crate::analysis::waits::{Waits, waits};
 use crate::back::html::about::{About, clock};
@@ -14,6 +14,8 @@ use crate::units::number::{counted, fixed};
 
 /// Maximum number of inner pieces that a row names.
 const MOST_INNER: usize = 3;
+/// Maximum number of messages listed in a row.
+const MOST_MESSAGES: usize = 100;
 const PERCENT: f64 = 100.0;
 
 /// Row of a piece, with its sections in cut order.
@@ -76,7 +78,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     let some = [(has_name, "Name"), (has_size, "Size"), (has_windows, "#Window")];
     columns.extend(some.into_iter().filter(|(has, _)| *has).map(|(_, name)| name));
     columns.push("#Notches and holes");
-    let span = columns.len().to_string();
+    let span = columns.len();
     columns.push("#Lines, m");
     if has_time {
         columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges", "Limited by"]);
@@ -91,45 +93,61 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     table::open(out, "sortable", &columns);
     for (place, Row { piece, sections, cut, sums, after }) in rows.iter().enumerate() {
         out.open("tr", &[("data-part", &piece.whole.to_string())]);
-        table::number(out, &(place + 1).to_string(), place as f64);
-        out.element("td", &[], &piece.number);
+        let mut cells = Cells::of(&columns, 0);
+        cells.number(&(place + 1).to_string(), (place + 1) as f64, out);
+        cells.text(&piece.number, &[], out);
         if has_name {
-            out.element("td", &[("title", &piece.texts)], &piece.name);
+            cells.text(&piece.name, &[("title", &piece.texts)], out);
         }
         if has_size {
-            out.element("td", &[], &piece.size);
+            cells.text(&piece.size, &[], out);
         }
         if has_windows {
             let windows = sections.iter().filter_map(|section| section.window);
             let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
-            table::number(out, &names.join(", "), windows.min().unwrap_or(0) as f64);
+            cells.number(&names.join(", "), windows.min().unwrap_or(0) as f64, out);
         }
-        table::number(out, &piece.marks.to_string(), piece.marks.total() as f64);
-        work(about, *cut, sums, out);
+        cells.number(&piece.marks.to_string(), piece.marks.total() as f64, out);
+        work(about, *cut, sums, &mut cells, out);
         if has_after {
-            out.element("td", &[], after);
+            cells.text(after, &[], out);
         }
-        table::number(out, &piece.messages.to_string(), piece.messages as f64);
+        messages(about, piece, &mut cells, out);
         out.close("tr");
     }
     if has_time {
         table::totals(out);
-        totals(about, &rows, (&span, 1 + usize::from(has_after)), out);
+        totals(about, &rows, (&columns, span), out);
     }
     table::close(out);
     out.close("section");
 }
 
+/// Cell of the messages that name a piece: their number, which opens their list.
+fn messages(about: &About, piece: &Piece, cells: &mut Cells, out: &mut Markup) {
+    let count = piece.messages.len();
+    if count == 0 {
+        cells.number("0", 0.0, out);
+        return;
+    }
+    cells.open(&[("class", "count"), ("data-value", &count.to_string())], out);
+    out.open("details", &[]).element("summary", &[], &count.to_string()).open("ul", &[]);
+    for message in piece.messages.iter().take(MOST_MESSAGES).map(|&message| about.outcome.messages[message]) {
+        out.open("li", &[]).prose(&message.message).text(" ").element("code", &[], message.code.name).close("li");
+    }
+    out.close("ul").close("details").close("td");
+}
+
 /// Cells of the work on a piece: metres, and what its time is spent on.
-fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
-    table::number(out, &fixed(cut / MM_PER_M, 3), cut);
+fn work(about: &About, cut: f64, sums: &Sums, cells: &mut Cells, out: &mut Markup) {
+    cells.number(&fixed(cut / MM_PER_M, 3), cut, out);
     if about.record.ticks() > 0 {
         let [cutting, travelling, other] = sums.shares();
         for ticks in [cutting, travelling, other, sums.total()] {
             let time = about.time(ticks);
-            table::number(out, &clock(time), time);
+            cells.number(&clock(time), time, out);
         }
-        table::number(out, &sums.plunges.to_string(), sums.plunges as f64);
+        cells.number(&sums.plunges.to_string(), sums.plunges as f64, out);
         let bounds = sums.bounds();
         let all: u64 = bounds.iter().map(|(_, ticks)| ticks).sum();
         let said = |&(bound, ticks): &(Bound, u64)| {
@@ -137,12 +155,12 @@ fn work(about: &About, cut: f64, sums: &Sums, out: &mut Markup) {
         };
         let said: Vec<String> = bounds.iter().map(said).collect();
         let first = said.first().map_or("", String::as_str);
-        out.element("td", &[("class", "bound"), ("title", &said.join(", "))], first);
+        cells.text(first, &[("class", "bound"), ("title", &said.join(", "))], out);
     }
 }
 
 /// Totals under the pieces: work outside of them, if there is any, and all.
-fn totals(about: &About, rows: &[Row], (before, after): (&str, usize), out: &mut Markup) {
+fn totals(about: &About, rows: &[Row], (columns, before): (&[&str], usize), out: &mut Markup) {
     let mut inside = Sums::default();
     for row in rows {
         inside.join(&row.sums);
@@ -153,10 +171,11 @@ fn totals(about: &About, rows: &[Row], (before, after): (&str, usize), out: &mut
     outside.ticks.iter_mut().zip(all.ticks.iter().zip(inside.ticks)).for_each(|(out, (all, of))| *out = all - of);
     let lines = [("Outside of pieces", 0.0, &outside), ("All", cut, all)];
     for (name, cut, sums) in lines.into_iter().filter(|(_, _, sums)| sums.total() > 0) {
-        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", before)], name);
-        work(about, cut, sums, out);
-        for _ in 0..after {
-            out.element("td", &[], "");
+        out.open("tr", &[]).element("th", &[("scope", "row"), ("colspan", &before.to_string())], name);
+        let mut cells = Cells::of(columns, before);
+        work(about, cut, sums, &mut cells, out);
+        while !cells.is_done() {
+            cells.text("", &[], out);
         }
         out.close("tr");
     }

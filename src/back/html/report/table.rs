@@ -33,6 +33,40 @@ pub(super) fn close(out: &mut Markup) {
     out.close("tbody").close("table").close("div");
 }
 
+/// Cells of one row, each with the name of its column, which stands beside it on a narrow screen.
+pub(super) struct Cells<'a> {
+    names: std::slice::Iter<'a, &'a str>,
+}
+
+impl<'a> Cells<'a> {
+    /// The cells of a row under these columns, none of them written; `past` are taken by a cell across several columns.
+    pub(super) fn of(columns: &'a [&'a str], past: usize) -> Self {
+        Self { names: columns[past..].iter() }
+    }
+
+    /// True if each column has its cell.
+    pub(super) fn is_done(&self) -> bool {
+        self.names.len() == 0
+    }
+
+    /// Opens the next cell, with attributes.
+    pub(super) fn open(&mut self, attributes: &[(&str, &str)], out: &mut Markup) {
+        let name = self.names.next().map_or("", |name| name.trim_start_matches('#'));
+        out.open("td", &[attributes, &[("data-name", name)]].concat());
+    }
+
+    /// A cell of text, with attributes.
+    pub(super) fn text(&mut self, shown: &str, attributes: &[(&str, &str)], out: &mut Markup) {
+        self.open(attributes, out);
+        out.text(shown).close("td");
+    }
+
+    /// A cell of a number, with the value to sort by.
+    pub(super) fn number(&mut self, shown: &str, value: f64, out: &mut Markup) {
+        self.text(shown, &[("class", "number"), ("data-value", &value.to_string())], out);
+    }
+}
+
 /// A cell of a number, with the value to sort by.
 pub(super) fn number(out: &mut Markup, shown: &str, value: f64) {
     let value = format!("{value}");

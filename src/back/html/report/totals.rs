@@ -1,13 +1,15 @@
 //! Totals of a job.
 
+use super::lines::uncut;
 use super::table;
 use crate::analysis::area;
+use crate::back::Estimate;
 use crate::back::html::about::{About, clock};
 use crate::back::html::piece::Marks;
 use crate::back::html::record::Sums;
 use crate::ir::declaration::Total;
 use crate::ir::motion::Bound;
-use crate::machine::{NotchStyle, Price};
+use crate::machine::NotchStyle;
 use crate::picture::Markup;
 use crate::units::number::{counted, fixed};
 use crate::units::{MM_PER_M, MM2_PER_M2};
@@ -26,9 +28,19 @@ pub(super) fn summary(about: &About) -> String {
         fixed(marker.cut_length() / MM_PER_M, 2)
     );
     let windows = about.windows().map(|windows| format!(" in {}", counted(windows, "window")));
+    let time = time(about).map(|time| match about.outcome.controller {
+        Some(_) => format!(", about {} on the controller", clock(time)),
+        None => format!(", {}", clock(time)),
+    });
+    let uncut = uncut(about).map(|uncut| format!("; {uncut}"));
+    [windows, time, uncut].into_iter().flatten().fold(said, |said, more| said + &more)
+}
+
+/// Duration of the program, s: by the planning of its controller, or as it is played; `None` when nothing moves.
+fn time(about: &About) -> Option<f64> {
     let ticks = about.record.all.total();
-    let time = (ticks > 0).then(|| format!(", {}", clock(about.time(ticks))));
-    said + &windows.unwrap_or_default() + &time.unwrap_or_default()
+    let played = (ticks > 0).then(|| about.time(ticks));
+    about.outcome.controller.map(|controller| controller.time).or(played)
 }
 
 /// The section of totals.
@@ -50,7 +62,14 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     }
     if sums.total() > 0 {
         let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
-        rows.push(("Time", clock(about.time(sums.total())) + moved));
+        let played = clock(about.time(sums.total())) + moved;
+        match about.outcome.controller {
+            Some(Estimate { time, .. }) => {
+                rows.push(("Time on the controller", format!("about {} by its own planning", clock(time))));
+                rows.push(("Time as played here", played));
+            }
+            None => rows.push(("Time", played)),
+        }
         rows.push(("Plunges", sums.plunges.to_string()));
     }
     if sums.plunges > 0 {
@@ -88,21 +107,14 @@ fn notches(about: &About) -> Option<String> {
 
 /// Cost of the job; `None` when the price is unknown.
 fn cost(about: &About) -> Option<String> {
-    let ticks = about.record.all.total();
-    let Price { per_s, plies } = about.context.job.remarks.price.filter(|_| ticks > 0)?;
-    let marker = about.time(ticks) * per_s;
-    let ply = marker / f64::from(plies);
-    let of = if plies == 1 { "1 ply".to_owned() } else { format!("{plies} plies") };
-    let part = match about.context.marker.piece_count() {
-        0 => String::new(),
-        pieces => format!(", {} a part", fixed(ply / pieces as f64, 4)),
-    };
-    Some(format!("{} for {of}: {} a ply{part}", fixed(marker, 2), fixed(ply, 3)))
+    let price = about.context.job.remarks.price?;
+    Some(price.costs(time(about)?, about.context.marker.piece_count()).to_string())
 }
 
 /// Breakdown of the time: one row per activity, with a bar of its share.
 fn spent(about: &About, sums: &Sums, out: &mut Markup) {
-    out.open("section", &[("id", "spent")]).element("h2", &[], "Time");
+    let title = if about.outcome.controller.is_some() { "Time as played here" } else { "Time" };
+    out.open("section", &[("id", "spent")]).element("h2", &[], title);
     table::open(out, "bars", &["Spent on", "#Time", "#Share", "#Distance", ""]);
     let total = sums.total() as f64;
     let cells = |ticks: u64, way: Option<f64>, of: &str, out: &mut Markup| {
@@ -128,7 +140,13 @@ fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     out.element("td", &[], "").close("tr");
     table::close(out);
     let words = "Of the tip: with overlaps, without what the blade cuts along its own width where it plunges.";
-    out.element("p", &[("class", "hint")], words).close("section");
+    out.element("p", &[("class", "hint")], words);
+    if about.outcome.controller.is_some() {
+        let words =
+            "The motion that is played here has these times. The controller paces the same way by its own planning.";
+        out.element("p", &[("class", "hint")], words);
+    }
+    out.close("section");
 }
 
 /// Cell with a bar of a share.
