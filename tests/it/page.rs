@@ -5,7 +5,7 @@ use cutc::ir::toolpath::Pose;
 use serde_json::Value;
 
 use crate::player::{GAP, Page, between, table};
-use crate::support::room::{DONE, Room};
+use crate::support::room::{DONE, FAULTY, Room};
 
 /// A part with a bend of 15 degrees, at X 100, amid its lower edge.
 const BEND: &str = "H1*G71*N1*X0Y0*M14*X1000Y0*X2000Y268*X2000Y2000*X0Y2000*X0Y0*M15*M0*";
@@ -139,4 +139,79 @@ fn a_piece_has_one_name_and_hints_follow_their_messages() {
     let page = Page::of(&room, "split.html");
     assert_eq!([0, 1].map(|section| page.facts["pieces"][section]["title"].clone()), ["piece 1 \"TOP\""; 2]);
     assert_eq!(page.facts["window_mm"], 400.0);
+}
+
+#[test]
+fn a_page_beside_g_code_has_the_time_of_its_controller() {
+    let room = Room::with("named.cut", NAMED);
+    let said = room.says("compile named.cut -t gcode,html --rate 36/h", DONE);
+    let page = room.text("named.html");
+    let time = fact(&page, "Time on the controller");
+    let of_controller = between(&time, "about ", " by its own planning");
+    let seconds: f64 = of_controller.trim_end_matches(" s").parse().expect("seconds");
+    assert!(said.contains("controller about") || said.contains("controller  about"), "{said}");
+    assert!(between(&page, "<header>", "</header>").contains(&format!("about {of_controller} on the controller")));
+    // A hundredth a second.
+    let cost: f64 = fact(&page, "Cost").split_once(' ').expect("words").0.parse().expect("money");
+    assert!((cost - seconds / 100.0).abs() < 0.01, "{cost} for {seconds} s");
+    assert_ne!(fact(&page, "Time as played here"), of_controller);
+    room.says("compile named.cut -t html --force", DONE);
+    let page = room.text("named.html");
+    assert!(!page.contains("on the controller") && fact(&page, "Time").ends_with(" s"));
+}
+
+#[test]
+fn a_page_of_a_plot_says_what_is_not_cut() {
+    let room = Room::with(
+        "seam.plt",
+        "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU400,400;PD3600,400,3600,3600,400,3600,400,400;PU;",
+    );
+    room.says("compile seam.plt -t html", DONE);
+    let page = room.text("seam.html");
+    let head = between(&page, "<header>", "</header>");
+    assert!(head.contains("; 1 line (0.32 m) not cut"), "{head}");
+    let rows: Vec<Vec<String>> =
+        table(&page, "lines").iter().map(|row| row.iter().map(|cell| cell.1.clone()).collect()).collect();
+    assert_eq!(
+        (&rows[0][..3], &rows[1][..3]),
+        (&["part", "cut", "1"].map(String::from)[..], &["seam line", "not cut", "1"].map(String::from)[..])
+    );
+    // A cut file says itself what is cut.
+    room.write("named.cut", NAMED.as_bytes());
+    room.says("compile named.cut -t html", DONE);
+    assert!(!room.text("named.html").contains("id=\"lines\""));
+}
+
+#[test]
+fn the_messages_of_a_piece_open_in_its_row() {
+    let room = Room::with("gap.cut", GAP);
+    room.says("compile gap.cut -t html", DONE);
+    let page = room.text("gap.html");
+    let pieces = between(&page, "<section id=\"pieces\">", "</section>");
+    let lists: Vec<&str> = pieces.split("<details>").skip(1).map(|list| between(list, "", "</details>")).collect();
+    let counts: Vec<usize> = lists.iter().map(|list| list.matches("<li>").count()).collect();
+    // Two of the four are about both pieces.
+    assert_eq!(counts, [4, 2], "{pieces}");
+    for (list, count) in lists.iter().zip(counts) {
+        assert!(list.starts_with(&format!("<summary>{count}</summary>")) && list.contains("path/overcut"), "{list}");
+    }
+}
+
+#[test]
+fn an_overview_tells_the_errors_of_a_file_and_the_costs() {
+    let room = Room::new();
+    std::fs::create_dir(room.at("in")).expect("writable");
+    room.write("in/named.cut", NAMED.as_bytes());
+    room.write(
+        "in/short.cut",
+        b"H1*G71*N1*X0Y0*M14*X400Y0*X4O0Y400*X0Y0*M15*N2*X0Y600*M14*X400Y6a0*X200Y800*X0Y600*M15*M0*",
+    );
+    room.says("compile in -o out/ -t html,csv --rate 36/h --plies 2", FAULTY);
+    let page = room.text("out/index.html");
+    let rows: Vec<&str> = page.split("<tr").skip(2).collect();
+    assert!(rows[0].contains("block 7: ") && rows[0].matches("<li>").count() == 1, "{}", rows[0]);
+    assert!(rows[1].contains("data-name=\"Cost\" data-value=\"0.0"), "{}", rows[1]);
+    assert!(between(&page, "<header>", "</header>").contains(" for 2 plies: "));
+    room.says("compile in -o out/ -t html,csv --force", FAULTY);
+    assert!(!room.text("out/index.html").contains("Cost"));
 }
