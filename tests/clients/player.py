@@ -82,7 +82,8 @@ def ways(browser):
     check(browser.evaluate("cutc.player.tick") == browser.evaluate("cutc.motion.end"), "End is the end")
     told, cuts = browser.evaluate("[document.getElementById('part').textContent, cutc.motion.cuts.length]")
     last = browser.evaluate("cutc.motion.facts.pieces.at(-1).number")
-    check(told.startswith(f"piece {last}") and told.endswith(f"cut {cuts} of {cuts}"), f"at the end it says {told}")
+    # The four pieces have holes, which are steps, too.
+    check(told.startswith(f"piece {last}") and told.endswith(f", cut or hole {cuts} of {cuts}"), f"at the end it says {told}")
     browser.press("]")
     check(browser.evaluate("cutc.player.rate") == 2, "a bracket is faster")
 
@@ -93,10 +94,12 @@ def controls(browser):
     for switched in [False, True]:
         browser.press(" ", "Space")
         check(browser.evaluate("cutc.player.cloth.shown.names") == switched, "the space bar switches a box")
-    browser.evaluate("document.getElementById('keys').focus()")
+    browser.evaluate("document.querySelector('#keys summary').focus(); scrollTo(0, 0)")
     for key, code, opened in [(" ", "Space", True), ("?", "Slash", False), ("?", "Slash", True)]:
         browser.press(key, code, shift=key == "?")
-        check(browser.evaluate("document.getElementById('keys').parentElement.open") == opened, f"{key} on the list of keys")
+        check(browser.evaluate("document.getElementById('keys').open") == opened, f"{key} on the list of keys")
+    bottom = browser.evaluate("document.getElementById('keys').getBoundingClientRect().bottom - innerHeight")
+    check(bottom <= 1, f"the list of keys ends {bottom} pixels below the window")
     check(not browser.evaluate("cutc.player.playing"), "and nothing plays")
     for key, name in [("p", "names"), ("m", "marks")]:
         browser.press(key)
@@ -255,6 +258,15 @@ def search(browser):
         empty = browser.evaluate("getComputedStyle(document.querySelector('#pieces tbody'), '::after').content")
         check((found[-1] == 0) == ("no row" in empty), f"with {found[-1]} rows it says {empty}")
     check(0 < found[0] < every and found[1:] == [0, every], f"{found} of {every} rows are found")
+    # A number is meant as a whole.
+    browser.evaluate("""(() => { const field = document.querySelector('#pieces input[type=search]');
+      field.value = '2'; field.dispatchEvent(new Event('input')); })()""")
+    cells = ("[...document.querySelectorAll('#pieces tr[data-part]')].filter(row => !row.hidden)"
+             ".map(row => [...row.cells].map(cell => cell.textContent).join(' '))")
+    for row in browser.evaluate(cells):
+        check(re.search(r"(?<![\d.])2(?![\d.])", row), f"{row} has no 2")
+    browser.evaluate("""(() => { const field = document.querySelector('#pieces input[type=search]');
+      field.value = ''; field.dispatchEvent(new Event('input')); })()""")
 
 
 def heads(browser):
@@ -397,6 +409,11 @@ def warnings(browser):
     browser.click(".tally a")
     top = browser.evaluate("document.getElementById('messages').getBoundingClientRect().top")
     check(-1 < top < 400, f"the messages begin at {top} of the window")
+    marked = browser.evaluate("cutc.player.cloth.marked")
+    browser.click("#pieces summary")
+    listed = browser.evaluate("document.querySelector('#pieces details[open] li').checkVisibility()")
+    check(listed, "the number of messages of a piece opens their list")
+    check(browser.evaluate("cutc.player.cloth.marked") == marked, "and leaves the cloth")
 
 
 def windows(browser):
