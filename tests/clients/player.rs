@@ -101,3 +101,22 @@ fn the_types_of_the_player_are_sound() {
     let checked = Command::new("tsc").arg("-p").arg(root().join("src/picture/player")).output().expect("tsc starts");
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stdout));
 }
+
+#[test]
+fn a_linter_finds_nothing_in_the_player() {
+    if !is_there("oxlint", Command::new("oxlint").arg("--version")) {
+        return;
+    }
+    let player = root().join("src/picture/player");
+    let lint = |file: &Path| {
+        let config = player.join(".oxlintrc.json");
+        Command::new("oxlint").arg("-c").arg(config).arg(file).output().expect("oxlint starts")
+    };
+    let clean = lint(&player);
+    assert!(clean.status.success(), "{}", String::from_utf8_lossy(&clean.stdout));
+    // What is wrong is found.
+    let folder = tempfile::tempdir().expect("a directory");
+    let wrong = folder.path().join("wrong.js");
+    std::fs::write(&wrong, "for (let i = 0; i < 9; i--) if (i = 3) console.log(i);\n").expect("writable");
+    assert!(!lint(&wrong).status.success());
+}

@@ -131,7 +131,7 @@ class Charts {
       if (x === LEFT) to.moveTo(x, y(most)); else to.lineTo(x, y(most));
       below.push([x, y(least)]);
     }
-    for (const [x, low] of below.reverse()) to.lineTo(x, low);
+    for (const [x, low] of below.toReversed()) to.lineTo(x, low);
     to.closePath();
     to.fillStyle = to.strokeStyle = colour;
     to.lineWidth = 1;

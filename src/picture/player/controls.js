@@ -246,7 +246,5 @@ function connect(player) {
   }
   check("following", on => { player.following = on; });
   if (motion.facts.aside.length === 0) element("aside_label", HTMLElement).hidden = true;
-  if (motion.facts.pieces.every(piece => piece.window === null)) {
-    for (const option of [...mode.options]) if (option.value === "window") option.remove();
-  }
+  if (motion.facts.pieces.every(piece => piece.window === null)) mode.querySelector("[value=window]")?.remove();
 }

@@ -37,7 +37,7 @@ function makeSortable() {
         const down = before ? before === "ascending" : isNumber;
         heads.forEach(other => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", down ? "descending" : "ascending");
-        const rows = [...body.rows].sort((a, b) => byColumn(a, b, column) * (down ? -1 : 1));
+        const rows = [...body.rows].toSorted((a, b) => byColumn(a, b, column) * (down ? -1 : 1));
         body.append(...rows);
       });
     });
