@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Seek as _};
+use std::io::{self, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -137,6 +137,13 @@ impl Draft {
         })?;
         Ok(())
     }
+}
+
+/// Writes a text to a file that is not there yet.
+pub(super) fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
+    let mut draft = Draft::new(path)?;
+    draft.file().write_all(text.as_bytes()).map_err(|error| cannot_write(path, &error))?;
+    draft.publish_new()
 }
 
 /// A complete file that is about to take its place.

@@ -1,5 +1,6 @@
 //! Result of a command: its output and exit code, or the reason why it failed.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::io::{self, Read as _, Seek as _, Write};
 
@@ -20,6 +21,9 @@ pub struct Console<'a> {
     /// Standard error.
     pub err: &'a mut dyn Write,
 }
+
+/// The command line itself, for a command that ends with another one.
+pub(super) type Run = fn(Vec<OsString>, &mut Console) -> Finished;
 
 /// Output of a command, and its exit code.
 #[derive(Debug)]

@@ -92,8 +92,7 @@ enum Command {
 }
 
 /// Runs a command line that begins with the name of the program. Long commands report on `console` while they run.
-pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> Finished {
-    let words: Vec<OsString> = words.into_iter().collect();
+pub fn run(words: Vec<OsString>, console: &mut Console) -> Finished {
     let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
@@ -109,7 +108,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
         Command::Verify(arguments) => verify::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, console),
         Command::Info(arguments) => info::run(arguments, console),
-        Command::Profile(arguments) => profile::run(arguments),
+        Command::Profile(arguments) => profile::run(arguments, console, run),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Manual(arguments) => Ok(manual::run(arguments)),
         Command::Completions(arguments) => Ok(completions::run(arguments, Arguments::command())),

@@ -77,7 +77,7 @@ pub use schema::schema;
 pub use selection::{Mode, NotNumbers, NotStart, Numbers, Selection, Start};
 pub use sewing::Sewing;
 pub use sheet::{Flip, Mirror, Sheet};
-pub use shipped::{Extent, SHIPPED, Shipped};
+pub use shipped::{Extent, SHIPPED, Shipped, TRIAL};
 pub use show::Comments;
 pub use table::Table;
 pub use tool::{Basis, Planner, Quintic, Tool, ToolKind};

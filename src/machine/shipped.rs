@@ -4,7 +4,7 @@
 //! assumes.
 
 use super::keys::KEYS;
-use super::load::load_given;
+use super::load::{Faults, load_given};
 use super::show::Comments;
 use crate::source::Source;
 
@@ -41,6 +41,9 @@ pub const SHIPPED: &[Shipped] = &[
         text: include_str!("shipped/mega5x.toml"),
     },
 ];
+
+/// Drawing of a trial, as a cut file: a square, a circle and a star of twelve strokes, on 220 x 80 mm.
+pub const TRIAL: &str = include_str!("shipped/trial.cut");
 
 /// Keys beside those of a shipped profile that every machine of this kind needs: what is measured on it.
 const MEASURED: &[&str] = &[
@@ -98,7 +101,16 @@ impl Shipped {
 
     /// Profile of a machine to begin with: the assumed settings of the controller, then keys with their meaning and values.
     pub fn beginning(&self, extent: Extent) -> String {
-        let (profile, origin) = load_given(Some(&self.source()), &[]).expect("a test loads every shipped profile");
+        self.beginning_with(&[], extent).expect("a test loads every shipped profile")
+    }
+
+    /// The same with `key=value` arguments on top.
+    ///
+    /// # Errors
+    ///
+    /// The faults of the arguments.
+    pub fn beginning_with(&self, sets: &[String], extent: Extent) -> Result<String, Faults> {
+        let (profile, origin) = load_given(Some(&self.source()), sets)?;
         let is_needed = |name: &str| MEASURED.contains(&name) || origin.given.contains(name);
         let keep = |name: &str| extent == Extent::All || is_needed(name);
         let head = self.text.lines().take_while(|line| line.starts_with('#'));
@@ -112,7 +124,7 @@ impl Shipped {
             ),
             Extent::All => String::new(),
         };
-        format!("{head}{rest}\n{}", profile.toml_of(Comments::Explained, &keep))
+        Ok(format!("{head}{rest}\n{}", profile.toml_of(Comments::Explained, &keep)))
     }
 }
 

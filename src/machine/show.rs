@@ -29,6 +29,12 @@ impl MachineProfile {
         profile
     }
 
+    /// Value of a key, as in a profile; `None` if there is no such key.
+    pub fn value(&self, name: &str) -> Option<toml::Value> {
+        let table = self.to_table();
+        KEYS.iter().find(|key| key.name == name)?.value_in(&table).cloned()
+    }
+
     /// Profile as TOML, with every key in the order of [`KEYS`]; it loads back as the same profile.
     pub fn to_toml(&self, comments: Comments) -> String {
         self.toml_of(comments, &|_| true)

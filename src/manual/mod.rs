@@ -51,6 +51,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("first-cut.md"),
     },
     Page {
+        name: "trial",
+        about: "Questions about a machine with G-code, and how to read the trial that they end with",
+        text: include_str!("trial.md"),
+    },
+    Page {
         name: "cutting",
         about: "How it cuts: corners, order, overlaps, common lines, notches, curves, the turn of the blade",
         text: include_str!("cutting.md"),

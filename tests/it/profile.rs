@@ -6,7 +6,7 @@ use cutc::diagnostic::{Detail, render, render_with};
 use cutc::machine::{Fit, MachineProfile, load};
 use cutc::source::Source;
 
-use crate::support::room::{DONE, Room};
+use crate::support::room::{DONE, Room, USAGE};
 use crate::support::samples::samples;
 
 fn source(path: &Path) -> Source {
@@ -67,6 +67,49 @@ fn a_value_loads_as_the_table_of_keys_says() {
         counts[usize::from(is_legal)] += 1;
     }
     assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
+}
+
+/// Answers for a FluidNC machine, some of them at the second attempt.
+const ANSWERS: &str = "fluid\nfluidnc\n0 1800, 0 1200\n-3\n3\n1.5\n12 m/min\n250, 250\n250, 250, 720\n2000, 2000, 9000\n\
+                       -360 360\nclockwise\n90\n\n60, 50\n";
+
+#[test]
+fn questions_end_with_a_profile_and_a_trial() {
+    let room = Room::new();
+    let said = room.expect_of(ANSWERS.as_bytes(), "profile init --ask -o own.toml", DONE).1;
+    for told in [
+        "1/12  Which controller",
+        "no profile has the name `fluid`",
+        "must be a number from 0 to 1000 mm",
+        "the answer has 3 parts, divided by commas",
+        "12/12  How long",
+        "cutc compile own-trial.cut -p ./own.toml -o own-trial.ngc --set sheet.origin=corner",
+        "wrote `own-trial.ngc`",
+        "`cutc manual trial` says",
+    ] {
+        assert!(said.contains(told), "no `{told}`: {said}");
+    }
+    let file = Source::new("own.toml", room.read("own.toml")).expect("small");
+    let own = load(Some(&file), &[]).map_err(|faults| render(&faults.file, &file)).expect("a legal profile");
+    assert_eq!((own.knife.width_mm, own.knife.back(), own.knife.feed_mm_s), (3.0, 1.5, Some(200.0)));
+    assert_eq!((own.table.x_mm, own.table.y_mm), (Some([0.0, 1800.0]), Some([0.0, 1200.0])));
+    assert!(own.c.reverse && own.knife.plunge_ms == 60.0 && own.knife.lift_ms == 50.0);
+    // What was not asked is that of the controller.
+    assert_eq!((own.value("gcode.letter"), own.gcode.decimals), (Some("A".into()), 5));
+    room.expect("verify own-trial.ngc --source own-trial.cut -p own.toml --set sheet.origin=corner", DONE);
+}
+
+#[test]
+fn answers_that_end_early_write_nothing_and_no_profile_is_overwritten() {
+    let room = Room::new();
+    let before = room.names();
+    let said = room.expect_of(b"grblhal\n\n3\n", "profile init --ask", USAGE).1;
+    assert!(said.contains("the answers end before the questions do"), "{said}");
+    assert_eq!(room.names(), before);
+    room.write("machine.toml", b"version = 1\n");
+    let said = room.expect_of(ANSWERS.as_bytes(), "profile init --ask", USAGE).1;
+    assert!(said.contains("`machine.toml` is there already") && !said.contains("1/12"), "{said}");
+    assert!(room.expect_of(b"", "profile init --ask --for fluidnc", USAGE).1.contains("cannot be used with"));
 }
 
 #[test]

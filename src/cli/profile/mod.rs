@@ -1,13 +1,15 @@
 //! `cutc profile`: prints, creates, describes or checks a machine profile.
 
-use std::io::Write as _;
+mod ask;
+mod questions;
+
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::draft::Draft;
+use super::draft::write_new;
 use super::files;
-use super::finished::{DONE, Finished};
+use super::finished::{Console, DONE, Finished, Run};
 use super::options::{self, Machine, no_profile, refuse};
 use super::report::pretty;
 use crate::machine::{Comments, Extent, MachineProfile, SHIPPED, Shipped, load, schema};
@@ -46,6 +48,14 @@ enum Command {
         #[arg(long, requires = "controller")]
         all: bool,
 
+        /// Ask twelve questions about the machine, then write its profile, the drawing of a trial and the
+        /// trial's program
+        ///
+        /// The files are those of `-o`, without it `machine.toml`, `machine-trial.cut` and `machine-trial.ngc`.
+        /// `cutc manual trial` says how to read what the trial cuts.
+        #[arg(long, conflicts_with_all = ["controller", "all"])]
+        ask: bool,
+
         /// File to write, instead of standard output (`-`); never overwritten
         #[arg(short, long, value_name = "PROFILE.toml")]
         out: Option<PathBuf>,
@@ -61,7 +71,7 @@ enum Command {
     },
 }
 
-pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+pub(super) fn run(arguments: &Arguments, console: &mut Console, cutc: Run) -> anyhow::Result<Finished> {
     match &arguments.command {
         Command::Show { machine } => Ok(match machine.job()? {
             Ok(job) => Finished::text(job.profile.effective().to_toml(Comments::Plain), String::new(), DONE),
@@ -69,7 +79,8 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         }),
         Command::Schema => Ok(Finished::text(pretty(&schema()), String::new(), DONE)),
         Command::List => Ok(Finished::text(list(), String::new(), DONE)),
-        Command::Init { controller, all, out } => init(beginning(controller.as_deref(), *all)?, out.as_ref()),
+        Command::Init { ask: true, out, .. } => ask::run(out.as_ref(), &mut std::io::stdin().lock(), console, cutc),
+        Command::Init { controller, all, out, .. } => init(beginning(controller.as_deref(), *all)?, out.as_ref()),
         Command::Check { files } => Ok(check(files)),
     }
 }
@@ -94,9 +105,7 @@ fn init(text: String, out: Option<&PathBuf>) -> anyhow::Result<Finished> {
     let Some(path) = out.filter(|out| !files::is_dash(out)) else {
         return Ok(Finished::text(text, String::new(), DONE));
     };
-    let mut draft = Draft::new(path)?;
-    draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(path, &error))?;
-    draft.publish_new()?;
+    write_new(path, &text)?;
     Ok(Finished::text(String::new(), format!("wrote `{}`\n", path.display()), DONE))
 }
 
