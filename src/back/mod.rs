@@ -17,7 +17,8 @@ mod svg;
 mod target;
 
 pub use target::{
-    ArcTarget, ArcWriter, BeginPage, Beside, Context, Emit, Estimate, Outcome, Output, PageWriter, Parts, Proof, Target,
+    ArcTarget, ArcWriter, BeginPage, Beside, Context, Emit, Estimate, Limit, Outcome, Output, PageWriter, Parts, Proof,
+    Spent, Target,
 };
 
 use crate::ir::Motion;

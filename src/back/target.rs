@@ -1,5 +1,6 @@
 //! Targets: the form that each needs, its writer, and the proof of its bytes.
 
+use std::fmt;
 use std::io::{self, Seek, Write};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -148,12 +149,56 @@ pub trait PageWriter {
 }
 
 /// Estimate for a controller that plans for itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Its duration, s.
-    pub time: f64,
+    /// Its duration.
+    pub spent: Spent,
     /// Number of arcs and lines with the knife down.
     pub moves: usize,
+    /// Name of the planner whose time it is.
+    pub planner: &'static str,
+}
+
+/// Duration of a program on a controller.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spent {
+    /// Duration, s.
+    pub time: f64,
+    /// Limits, each with the time that it costs, s; they add up to the duration. Empty where they are not known.
+    pub limits: Vec<(Limit, f64)>,
+}
+
+/// What limits a controller that plans for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// F, as the speed of the blade.
+    Feed,
+    /// F, as the number of moves a second that the profile allows.
+    Blocks,
+    /// Greatest speed of an axis, by its letter.
+    Speed(char),
+    /// Greatest acceleration of an axis, by its letter: ramps and kinks.
+    Acceleration(char),
+    /// Number of moves that the planner sees at once.
+    LookAhead,
+    /// Moves that arrive later than the planner could use them.
+    Late,
+    /// Rests of the axes.
+    Rest,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Feed => out.write_str("feed"),
+            Self::Blocks => out.write_str("moves a second"),
+            Self::Speed(axis) => write!(out, "speed of {axis}"),
+            Self::Acceleration(axis) => write!(out, "acceleration of {axis}"),
+            Self::LookAhead => out.write_str("look-ahead"),
+            Self::Late => out.write_str("late moves"),
+            Self::Rest => out.write_str("rests"),
+        }
+    }
 }
 
 /// How the verifier judges the bytes of a target.

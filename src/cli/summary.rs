@@ -9,7 +9,7 @@ use crate::ir::declaration::Total;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
-use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules};
+use crate::pipeline::{Axes, Common, Controller, Limit, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
@@ -107,10 +107,6 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     if let Some(time) = program.time_s {
         line("time", duration(time));
     }
-    if let Some(controller) = report.controller {
-        let time = duration(controller.time_s);
-        line("controller", format!("about {time} by its own planning, for {} arcs and lines", controller.moves));
-    }
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
         let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (bound.to_string(), time)).collect();
@@ -122,8 +118,31 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     if let (Some(spent), Some(savings)) = (&program.spent, &program.savings) {
         could_save(spent, savings, line);
     }
+    if let Some(controller) = &report.controller {
+        planned_there(controller, line);
+    }
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
+    }
+}
+
+/// Time on a controller that plans for itself, what limits it, and keys whose change would save a relevant part of it.
+fn planned_there(controller: &Controller, line: &mut impl FnMut(&str, String)) {
+    let Controller { time_s, moves, planner, limits } = controller;
+    line("controller", format!("about {} by {planner}'s planner, {moves} arcs and lines", duration(*time_s)));
+    let parts: Vec<(String, f64)> = limits.iter().map(|part| (part.limit.to_string(), part.time_s)).collect();
+    let limited = shares(&parts, *time_s);
+    if !limited.is_empty() {
+        line("", limited);
+    }
+    for part in limits.iter().filter(|part| part.time_s >= TELLING_SHARE * time_s) {
+        let what = match part.limit {
+            Limit::LookAhead => "more of gcode.planner_blocks",
+            Limit::Late => "more of gcode.max_blocks_s",
+            Limit::Feed | Limit::Blocks | Limit::Speed(_) | Limit::Acceleration(_) | Limit::Rest => continue,
+        };
+        let share = 100.0 * part.time_s / time_s;
+        line("", format!("{what} would save about {} s, {} %", fixed(part.time_s, 1), fixed(share, 0)));
     }
 }
 

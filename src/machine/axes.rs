@@ -8,7 +8,7 @@ use super::word::{OrWord, Same, Unbounded, Word as _};
 use crate::units::{deg, rad};
 
 /// Greatest accelerations, per s2.
-const ACCELERATION: Within = from(1.0, 1.0e9);
+pub(super) const ACCELERATION: Within = from(1.0, 1.0e9);
 /// Greatest jerks, per s3.
 const JERK: Within = from(1.0, 1.0e12);
 /// Angles within one turn either way, degrees.

@@ -40,6 +40,11 @@ impl Origin {
         format!("{}, with {} set", self.name(), keys.join(", "))
     }
 
+    /// True if it gives keys of a controller that reads G-code.
+    pub fn is_for_gcode(&self) -> bool {
+        self.given.iter().any(|key| key.starts_with("gcode."))
+    }
+
     /// Source of the position of the axis in the blade; a width alone does not determine it.
     pub fn axis(&self) -> Axis {
         let has = |key: &str| self.given.contains(key);

@@ -7,7 +7,7 @@ use crate::front::Dialect;
 use crate::ir::Target;
 use crate::ir::verdict::Rule;
 use crate::machine::{Job, ToolKind};
-use crate::pipeline::{Choices, Compiled, Declared, Explained, Input, Medium, Product, Program};
+use crate::pipeline::{Choices, Compiled, Declared, Estimated, Explained, Input, Medium, Product};
 use crate::sew::Asked;
 use crate::source::Source;
 use crate::units::MM_PER_M;
@@ -61,7 +61,7 @@ pub struct Tool {
     /// Makes the cuts of an input before planning.
     pub cuts: fn(&mut Input, &Source, &Job, &mut Diagnostics),
     /// Figures of the program of an input with its cuts.
-    pub estimate: fn(&mut Input, &Source, &Job, &mut Diagnostics) -> io::Result<Program>,
+    pub estimate: fn(&mut Input, &Source, &Job, &mut Diagnostics) -> io::Result<Estimated>,
 }
 
 /// Row of a table of targets, without its functions.

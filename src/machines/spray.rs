@@ -84,12 +84,18 @@ fn check(source: &Source, asked: &Asked, job: &Job, diagnostics: &mut Diagnostic
 
 /// The figures of the program that an input would become.
 #[allow(clippy::unnecessary_wraps, reason = "a row of the table of machines: the knife's may fail to write")]
-fn estimate(input: &mut Input, _: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<pipeline::Program> {
+fn estimate(
+    input: &mut Input,
+    _: &Source,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<pipeline::Estimated> {
     if diagnostics.has_errors() {
-        return Ok(pipeline::Program::default());
+        return Ok(pipeline::Estimated::default());
     }
     let planned = spray::plan(&input.marker, job, diagnostics);
-    Ok(planned.map_or_else(pipeline::Program::default, |(program, peaks)| figures(&program, &peaks)))
+    let program = planned.map_or_else(pipeline::Program::default, |(program, peaks)| figures(&program, &peaks));
+    Ok(pipeline::Estimated { program, controller: None })
 }
 
 /// The figures of a program.

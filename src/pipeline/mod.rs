@@ -26,11 +26,14 @@ pub use self::advance::Advance;
 pub use self::bites::Bite;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
+pub use crate::back::Limit;
 pub use input::{Input, Judged, Reading, marker_of, read, read_for, read_to_judge};
 pub use judge::{audited, both, figures, foreign, judge_program, report};
 pub use place::place;
 pub use product::{Medium, Product};
-pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
+pub use report::{
+    Axes, Common, Controller, Drawn, Estimated, Limited, Lines, Notches, Peak, Peaks, Program, Report, Sides,
+};
 pub use rounded::significant;
 pub use savings::Savings;
 pub use spent::Spent;
@@ -51,7 +54,7 @@ use self::judge::Asked;
 use self::program::{Plan, Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::analysis::declare;
-use crate::back::{Beside, Context, Emit, Estimate, Outcome, PageWriter, Proof, SETPOINTS, Target};
+use crate::back::{Beside, Context, Emit, Estimate, Outcome, PageWriter, Proof, SETPOINTS, TARGETS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
@@ -325,9 +328,9 @@ impl Proofs {
 }
 
 /// Figures of the program of an input, without writing or judging it; if it cannot be planned the diagnostics tell why.
-pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
+pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Estimated> {
     if diagnostics.has_errors() {
-        return Ok(Program::default());
+        return Ok(Estimated::default());
     }
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };
@@ -335,7 +338,22 @@ pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut
     let written =
         program::write(toolpaths, &mut [], &context, Plan { motion: true, advance: &Advance::default() }, diagnostics)?;
     place::place(diagnostics, known, &input.marker, source, job);
-    Ok(written.program)
+    let controller = if diagnostics.has_errors() { None } else { estimated_there(&context)? };
+    Ok(Estimated { program: written.program, controller })
+}
+
+/// The program on the controller of a profile with keys of such a one; `None` if the target cannot express the job.
+fn estimated_there(context: &Context) -> io::Result<Option<Controller>> {
+    let mut unread = SpooledTempFile::new(SCRATCH_BYTES);
+    let mut arcs = TARGETS.iter().find(|target| matches!(target.emit, Emit::Arcs(_)));
+    if !context.job.origin.is_for_gcode() {
+        arcs = None;
+    }
+    let Some(sink) = arcs.and_then(|target| Sink::new(&target.emit, context, &mut unread)) else { return Ok(None) };
+    let (mut refused, plan) = (Diagnostics::default(), Plan { motion: false, advance: &Advance::default() });
+    let toolpaths = Toolpaths::new(context.marker, context.job);
+    let written = program::write(toolpaths, &mut [sink], context, plan, &mut refused)?;
+    Ok(written.estimate.map(Controller::from).filter(|_| !refused.has_errors()))
 }
 
 /// The form after a pass, as text; `None` when no pass has that name or nothing could be read.

@@ -9,7 +9,7 @@ use super::bites::{self, Bite};
 use super::rounded::{micro, micro_known, significant, to_millionths};
 use super::savings::Savings;
 use super::spent::Spent;
-use crate::back::Estimate;
+use crate::back::{Estimate, Limit};
 use crate::geom::polyline;
 use crate::ir::declaration::Total;
 use crate::ir::drawing::{Account, LayerLines, LineClass};
@@ -136,19 +136,50 @@ impl CommonEdge {
 }
 
 /// A program on a controller that plans for itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Controller {
     /// Likely duration, s.
     #[serde(serialize_with = "micro")]
     pub time_s: f64,
     /// Number of arcs and lines with the knife down.
     pub moves: usize,
+    /// Name of the planner whose time it is.
+    pub planner: &'static str,
+    /// What the time is spent by, the greatest first; absent where it is not known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<Limited>,
+}
+
+/// Figures of a program that is not written.
+#[derive(Debug, Default)]
+pub struct Estimated {
+    /// Figures of planning.
+    pub program: Program,
+    /// The program on the controller of the profile, where that plans for itself.
+    pub controller: Option<Controller>,
+}
+
+/// Time of a program that one limit costs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Limited {
+    /// The limit.
+    #[serde(serialize_with = "in_words")]
+    pub limit: Limit,
+    /// Its time, s.
+    #[serde(serialize_with = "micro")]
+    pub time_s: f64,
 }
 
 impl From<Estimate> for Controller {
-    fn from(Estimate { time, moves }: Estimate) -> Self {
-        Self { time_s: time, moves }
+    fn from(Estimate { spent, moves, planner }: Estimate) -> Self {
+        let limits = spent.limits.into_iter().map(|(limit, time_s)| Limited { limit, time_s }).collect();
+        Self { time_s: spent.time, moves, planner, limits }
     }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+fn in_words<S: Serializer>(limit: &Limit, out: S) -> Result<S::Ok, S::Error> {
+    out.collect_str(limit)
 }
 
 /// Lines of a plot.
@@ -388,10 +419,15 @@ impl Axes {
 }
 
 impl Report {
-    /// Time of the program, s, as its controller plans it, or as planned here where no program is for such a controller; `None`
-    /// when it was not planned.
+    /// Time of the program, s: on a controller that plans for itself, else as planned here; `None` when it was not planned.
     pub fn time_s(&self) -> Option<f64> {
-        self.controller.map(|controller| controller.time_s).or(self.program.time_s)
+        self.controller.as_ref().map(|controller| controller.time_s).or(self.program.time_s)
+    }
+
+    /// The report with estimated figures.
+    #[must_use]
+    pub fn estimated(self, estimated: Estimated, marker: &Marker) -> Self {
+        Self { controller: estimated.controller, ..self }.planned(estimated.program, marker)
     }
 
     /// The report with the figures of planning.

@@ -136,3 +136,72 @@ fn a_cut_that_is_little_longer_than_the_blade_is_plunged_where_that_would_turn_o
         room.expect(&format!("compile notches.cut -p {machine} --set corner.angle_deg={corner} -t gcode -o -"), DONE);
     }
 }
+
+#[test]
+fn the_time_is_that_of_the_planner_of_the_controller_with_what_limits_it() {
+    let room = room();
+    let mut all = String::new();
+    let options = ["", " --set gcode.planner_blocks=3 --set gcode.arc_tolerance_mm=0.0005 --set knife.feed_mm_s=900"];
+    for shipped in SHIPPED {
+        for option in options {
+            let command = format!("compile pocket.cut -p {} -t gcode -o out.ngc --force{option}", shipped.name);
+            let (_, summary) = room.expect(&command, DONE);
+            let lines = summary.lines().skip_while(|line| !line.contains("controller"));
+            all += shipped.name;
+            all += option;
+            all.push('\n');
+            for line in lines.take_while(|line| line.contains("controller") || line.starts_with("             ")) {
+                assert!(line.len() <= 80, "{line}");
+                all += line;
+                all.push('\n');
+            }
+        }
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn the_times_of_all_limits_add_up_and_a_longer_look_ahead_is_never_slower() {
+    let room = room();
+    let told = |blocks: u32| {
+        let set = format!("--set gcode.planner_blocks={blocks} --set knife.feed_mm_s=900");
+        let command = format!("compile pocket.cut -p fluidnc-arcs {set} -t gcode -o out.ngc --force --format json");
+        let (report, _) = room.expect(&command, DONE);
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        let controller = &report["controller"];
+        assert_eq!(controller["planner"], "grbl");
+        let number = |value: &serde_json::Value| value.as_f64().expect("seconds");
+        let parts = controller["limits"].as_array().expect("limits").iter();
+        let parts: Vec<(String, f64)> =
+            parts.map(|part| (part["limit"].as_str().expect("a word").to_owned(), number(&part["time_s"]))).collect();
+        let time = number(&controller["time_s"]);
+        assert!((parts.iter().map(|(_, time)| time).sum::<f64>() - time).abs() < 1e-4, "{time} {parts:?}");
+        let late = parts.iter().find(|(limit, _)| limit == "look-ahead").map_or(0.0, |(_, time)| *time);
+        (time, late)
+    };
+    let [short, long, longest] = [2, 20, 1000].map(told);
+    assert!(short.0 > long.0 + 0.01 && long.0 >= longest.0, "{short:?} {long:?} {longest:?}");
+    // What the look-ahead costs is what an unlimited one saves.
+    assert!((short.0 - short.1 - longest.0).abs() < 1e-4 && longest.1 < 1e-6, "{short:?} {longest:?}");
+}
+
+#[test]
+fn info_tells_the_time_on_the_controller_of_a_profile_that_has_one() {
+    let room = room();
+    let json =
+        |command: &str| -> serde_json::Value { serde_json::from_str(&room.expect(command, DONE).0).expect("JSON") };
+    for name in ["linuxcnc", "fluidnc", "fluidnc-arcs"] {
+        let written = json(&format!("compile pocket.cut -p {name} -t gcode -o out.ngc --force --format json"));
+        let known = json(&format!("info pocket.cut -p {name} --time --format json"));
+        assert!(written["controller"]["time_s"].as_f64().is_some_and(|time| time > 1.0));
+        assert_eq!(known["controller"], written["controller"], "{name}");
+        let row = json(&format!("info pocket.cut circle.cut -p {name} --format json"));
+        let times = [&row["files"][0], &written["controller"]].map(|of| of["time_s"].as_f64().expect("seconds"));
+        assert!((times[0] - times[1]).abs() < 1e-4, "{name}: {times:?}");
+    }
+    // What the target refuses has no time there, and is no fault of the file.
+    let known = json("info pocket.cut --set gcode.letter=A --set knife.follow=chord --time --format json");
+    assert!(known["controller"].is_null() && known["time_s"].as_f64().is_some());
+    let known = json("info pocket.cut --time --format json");
+    assert!(known["controller"].is_null() && known["time_s"].as_f64().is_some());
+}

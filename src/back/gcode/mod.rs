@@ -52,9 +52,9 @@ impl ArcWriter for Program<'_> {
     }
 
     fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate> {
-        let time = self.finish();
+        let spent = self.finish();
         self.drain(out)?;
-        Ok(Estimate { time, moves: self.moves })
+        Ok(Estimate { spent, moves: self.moves, planner: self.planned_by() })
     }
 }
 

@@ -3,8 +3,8 @@
 use std::io;
 use std::rc::Rc;
 
-use super::pace::{Move, Pace};
-use crate::back::target::{Context, Output};
+use super::pace::{self, Feed, Move, Planner};
+use crate::back::target::{Context, Limit, Output, Spent};
 use crate::geom::{Point, Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
@@ -35,6 +35,7 @@ fn comment(text: &str) -> String {
 #[derive(Clone)]
 struct Lines {
     text: Rc<str>,
+    steps: Rc<[Step]>,
     /// True if the axes must stand before them.
     must_stand: bool,
     /// True if Z moves in them.
@@ -45,7 +46,7 @@ impl Lines {
     fn new(steps: &[Step], job: &Job) -> Self {
         let text = steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n").into();
         let moves_z = steps.iter().any(|step| matches!(step, Step::Z { .. }));
-        Self { text, must_stand: job.profile.gcode.must_stand(steps), moves_z }
+        Self { text, steps: steps.into(), must_stand: job.profile.gcode.must_stand(steps), moves_z }
     }
 
     /// Lines with a number in place of `#`.
@@ -73,7 +74,7 @@ pub(super) struct Program<'a> {
     lines: u64,
     /// Number of moves with the knife down.
     pub(super) moves: usize,
-    pace: Pace,
+    planner: Box<dyn Planner>,
 }
 
 impl<'a> Program<'a> {
@@ -83,8 +84,8 @@ impl<'a> Program<'a> {
         let (pose, source) = (Pose::new(x + f64::from(station), y, rad(c)), context.source.name());
         let keys = &job.profile.gcode;
         let knife = [&keys.knife_down, &keys.knife_up].map(|steps| Lines::new(steps, job));
-        let pace = Pace::new(job);
-        Self { job, source, text: Vec::new(), pose, knife, stands: true, station, lines: 0, moves: 0, pace }
+        let planner = pace::planner(job);
+        Self { job, source, text: Vec::new(), pose, knife, stands: true, station, lines: 0, moves: 0, planner }
     }
 
     /// Writes the lines before the first move.
@@ -117,13 +118,18 @@ impl<'a> Program<'a> {
         self.lift();
     }
 
-    /// Writes the lines after the last move and returns the time of the program, s.
-    pub(super) fn finish(&mut self) -> f64 {
+    /// Writes the lines after the last move and returns the time of the program.
+    pub(super) fn finish(&mut self) -> Spent {
         if let Some([x, y, c]) = self.job.profile.park {
             self.rapid(Pose::new(x + f64::from(self.station), y, rad(c)));
         }
         self.say(&self.job.profile.gcode.footer);
-        std::mem::replace(&mut self.pace, Pace::new(self.job)).finish()
+        self.planner.finish()
+    }
+
+    /// Name of the planner whose time is estimated.
+    pub(super) fn planned_by(&self) -> &'static str {
+        self.job.profile.gcode.planner.title()
     }
 
     /// Writes the lines so far.
@@ -203,7 +209,7 @@ impl<'a> Program<'a> {
             self.dwell(SETTLE);
         }
         self.say(&steps.text);
-        self.pace.wait(0.0);
+        self.planner.steps(&steps.steps);
         self.stands &= !steps.moves_z;
         if dwell > 0.0 {
             self.dwell(dwell);
@@ -216,17 +222,17 @@ impl<'a> Program<'a> {
         self.text.extend_from_slice(b"G4 P");
         push_fixed(&mut self.text, time, FEED_DECIMALS);
         self.text.push(b'\n');
-        self.pace.wait(time);
+        self.planner.wait(time);
         self.stands |= time >= SETTLE;
     }
 
     /// Writes a rapid.
     pub(super) fn rapid(&mut self, to: Pose) {
         let way = to.centre - self.pose.centre;
-        self.pace.go(&Move {
-            ways: [way.x.abs(), way.y.abs(), (to.c.0 - self.pose.c.0).abs()],
+        self.planner.go(&Move {
+            ways: [way.x, way.y, to.c.0 - self.pose.c.0],
             length: way.norm(),
-            speed: f64::INFINITY,
+            feed: Feed::RAPID,
             along: [way.try_normalize(0.0).unwrap_or_default(); 2],
             curvature: 0.0,
         });
@@ -239,8 +245,8 @@ impl<'a> Program<'a> {
 
     fn feed(&mut self, piece: &Piece, path: &Path) {
         let [x, y, _] = self.job.profile.axes.limits();
-        let fastest = x.speed.min(y.speed);
-        let speed = piece.speed.min(fastest);
+        let of_axis = |axis, speed| Feed { speed, limit: Limit::Speed(axis) };
+        let fastest = of_axis('x', x.speed).or(of_axis('y', y.speed));
         let from = self.pose;
         let keys = &self.job.profile.gcode;
         let is_written =
@@ -250,14 +256,15 @@ impl<'a> Program<'a> {
                 self.number();
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;
-                let best = self.pace.best_speed(piece.length, turn / piece.length);
+                let best = self.planner.best_speed(piece.length, turn / piece.length);
                 let turned = piece.to.c.0 - from.c.0;
-                let speed = speed.min(best).min(self.followed(piece.length, turned));
-                self.plan(piece.to, piece.length, turn, speed, Some(-away));
+                let feed = Feed { speed: piece.speed.min(best), limit: Limit::Feed };
+                let feed = feed.or(fastest).or(self.followed(piece.length, turned));
+                self.plan(piece.to, piece.length, turn, feed, Some(-away));
                 self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
                 self.word(b'J', away.y);
-                self.push_feed(speed, piece.length, turned);
+                self.push_feed(feed.speed, piece.length, turned);
             }
             _ => {
                 let parts = self.chords(piece, path.chord);
@@ -275,12 +282,13 @@ impl<'a> Program<'a> {
                     let to = Pose { centre, c };
                     let (length, ratio) = self.told([self.pose, to], path);
                     let turned = to.c.0 - self.pose.c.0;
-                    let speed = fastest.min(piece.feed * ratio).min(self.followed(length, turned));
+                    let feed = Feed { speed: piece.feed * ratio, limit: Limit::Feed };
+                    let feed = feed.or(fastest).or(self.followed(length, turned));
                     self.number();
                     self.text.extend_from_slice(b"G1");
-                    self.plan(to, length, 0.0, speed, None);
+                    self.plan(to, length, 0.0, feed, None);
                     self.axes_of_cut(to);
-                    self.push_feed(speed, length, turned);
+                    self.push_feed(feed.speed, length, turned);
                 }
             }
         }
@@ -288,17 +296,17 @@ impl<'a> Program<'a> {
 
     /// Accounts for a move with the knife down: its length, turn and speed, and for an arc the vector from its centre to its
     /// start.
-    fn plan(&mut self, to: Pose, length: f64, turn: f64, speed: f64, arm: Option<Vector>) {
+    fn plan(&mut self, to: Pose, length: f64, turn: f64, feed: Feed, arm: Option<Vector>) {
         self.moves += 1;
         self.stands = false;
         let way = to.centre - self.pose.centre;
         let along = arm.map_or(way, |arm| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();
         let (sin, cos) = turn.sin_cos();
         let end = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos);
-        self.pace.go(&Move {
-            ways: [way.x.abs(), way.y.abs(), (to.c.0 - self.pose.c.0).abs()],
+        self.planner.go(&Move {
+            ways: [way.x, way.y, to.c.0 - self.pose.c.0],
             length,
-            speed,
+            feed,
             along: [along, end],
             curvature: if arm.is_some() { turn / length } else { 0.0 },
         });
@@ -306,10 +314,12 @@ impl<'a> Program<'a> {
 
     /// Greatest speed along a move of a length, mm/s, at which C keeps its limit while it turns by an angle, rad, and the
     /// controller gets no more blocks a second than it takes.
-    fn followed(&self, length: f64, turn: f64) -> f64 {
+    fn followed(&self, length: f64, turn: f64) -> Feed {
         let [_, _, c] = self.job.profile.axes.limits();
         let shortest = self.job.profile.gcode.max_blocks_s.map_or(0.0, f64::recip);
-        length / (turn.abs() / c.speed).max(shortest)
+        let turning = turn.abs() / c.speed;
+        let limit = if turning < shortest { Limit::Blocks } else { Limit::Speed('c') };
+        Feed { speed: length / turning.max(shortest), limit }
     }
 
     /// Length of a straight move between two poses as written, mm, and the ratio of the speed of the axis to the greatest speed

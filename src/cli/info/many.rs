@@ -46,8 +46,8 @@ impl Arguments {
         if let Some(mut read) = read.filter(|_| !diagnostics.has_errors()) {
             let tool = machines::tool_of(job);
             (tool.cuts)(&mut read, &source, job, &mut diagnostics);
-            let program = (tool.estimate)(&mut read, &source, job, &mut diagnostics)?;
-            let report = Report::of(&read.marker, read.dialect.name).planned(program, &read.marker);
+            let estimated = (tool.estimate)(&mut read, &source, job, &mut diagnostics)?;
+            let report = Report::of(&read.marker, read.dialect.name).estimated(estimated, &read.marker);
             if !diagnostics.has_errors() {
                 row.state = State::Done;
                 row.pieces = Some(report.pieces);

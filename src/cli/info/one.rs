@@ -44,8 +44,8 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         }
         let is_planned = arguments.time || arguments.pricing.price().is_some();
         if is_planned && !diagnostics.has_errors() {
-            let program = (tool.estimate)(&mut input, &source, &job, &mut diagnostics)?;
-            all.report = all.report.planned(program, &input.marker);
+            let estimated = (tool.estimate)(&mut input, &source, &job, &mut diagnostics)?;
+            all.report = all.report.estimated(estimated, &input.marker);
             all.time_by_piece = arguments.time.then(|| times::of(&all.report.program, &input.marker, &job.profile));
         }
         all.price(arguments);

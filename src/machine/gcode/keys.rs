@@ -1,7 +1,8 @@
 //! Table of the keys `gcode.*`: their values and meanings.
 
-use super::{FeedCounts, FeedMode, Letter, Outputs};
-use crate::machine::key::{Key, Takes, from};
+use super::{FeedCounts, FeedMode, Letter, Outputs, Planner};
+use crate::machine::axes::ACCELERATION;
+use crate::machine::key::{Key, SPEED, Takes, from};
 use crate::machine::word::{Off, Word as _, words};
 
 /// The keys `gcode.*`.
@@ -15,6 +16,12 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.feed_counts", takes: Takes::Word(words::<FeedCounts>), about: "Axes whose motion F of G94 counts: \"linear\" = X and Y; \"all\" = the axis of the blade, too, its\ndegrees as if they were mm (grblHAL, FluidNC, grbl-Mega-5X)." },
     Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), Off::WORD), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },
     Key { name: "gcode.max_blocks_s", takes: Takes::NumberOr(from(1.0, 1.0e5), Off::WORD), about: "Moves a second that the controller plans: F makes no move shorter than that, so that it never\nwaits for the next one; \"off\" = it keeps up." },
+    Key { name: "gcode.planner", takes: Takes::Word(words::<Planner>), about: "Planner by which the time is estimated: \"grbl\" = that of grbl, grbl-Mega-5X, grblHAL and FluidNC;\n\"linuxcnc\" = that of LinuxCNC, which also keeps F of arcs to what it reaches." },
+    Key { name: "gcode.planner_blocks", takes: Takes::Count(1000), about: "Planner grbl: moves that the controller knows at once, the running one included. It must be able\nto stop at the end of the last one." },
+    Key { name: "gcode.junction_deviation_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Planner grbl: its junction deviation ($11), which sets the speed at kinks." },
+    Key { name: "gcode.arc_tolerance_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Planner grbl: its arc tolerance ($12), the deviation of the chords into which it divides an arc." },
+    Key { name: "gcode.z_speed_mm_s", takes: Takes::NumberOr(SPEED, Off::WORD), about: "Planner grbl: greatest speed of Z ($112 is per minute); \"off\" = the time does not count Z." },
+    Key { name: "gcode.z_acceleration_mm_s2", takes: Takes::NumberOr(ACCELERATION, Off::WORD), about: "Planner grbl: greatest acceleration of Z ($122); \"off\" = the time does not count moves of Z." },
     Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
     Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
     Key { name: "gcode.outputs", takes: Takes::Word(words::<Outputs>), about: "When M64 to M66 and M68 act: \"queued\" = when the moves before them are over (LinuxCNC);\n\"immediate\" = when they are read (grblHAL, FluidNC), so that a rest stands before them." },

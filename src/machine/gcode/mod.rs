@@ -42,6 +42,20 @@ pub struct Gcode {
     /// Maximum number of moves a second that the controller plans; `None` = as many as are written.
     #[serde(with = "OrWord::<Off>")]
     pub max_blocks_s: Option<f64>,
+    /// Planner by which the time of a program is estimated.
+    pub planner: Planner,
+    /// Maximum number of moves that it knows at once, with the running one.
+    pub planner_blocks: u32,
+    /// Junction deviation of a grbl planner.
+    pub junction_deviation_mm: f64,
+    /// Deviation of the chords into which it divides arcs.
+    pub arc_tolerance_mm: f64,
+    /// Maximum speed of Z; `None` = moves of Z are not counted.
+    #[serde(with = "OrWord::<Off>")]
+    pub z_speed_mm_s: Option<f64>,
+    /// Maximum acceleration of Z; `None` = moves of Z are not counted.
+    #[serde(with = "OrWord::<Off>")]
+    pub z_acceleration_mm_s2: Option<f64>,
     /// Decimals of positions.
     pub decimals: u32,
     /// True if lines are numbered (N).
@@ -133,6 +147,26 @@ pub enum FeedCounts {
     All,
 }
 
+/// Planner of a controller.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Planner {
+    /// `LinuxCNC`.
+    Linuxcnc,
+    /// grbl and its descendants: grbl-Mega-5X, grblHAL, `FluidNC`.
+    Grbl,
+}
+
+impl Planner {
+    /// Name in a sentence.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Linuxcnc => "LinuxCNC",
+            Self::Grbl => "grbl",
+        }
+    }
+}
+
 /// Time at which a controller switches outputs (M64, M65, M68) and waits for inputs (M66).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -154,6 +188,12 @@ impl Default for Gcode {
             feed_counts: FeedCounts::Linear,
             blend_mm: Some(0.05),
             max_blocks_s: None,
+            planner: Planner::Linuxcnc,
+            planner_blocks: 15,
+            junction_deviation_mm: 0.01,
+            arc_tolerance_mm: 0.002,
+            z_speed_mm_s: None,
+            z_acceleration_mm_s2: None,
             decimals: 4,
             line_numbers: false,
             outputs: Outputs::Queued,

@@ -6,7 +6,10 @@
 //! arc leans towards its centre at its start, more so for a higher F. The rules are those of the planner (`tp.c`, `tc.c`,
 //! `blendmath.c`, `emccanon.cc`) as closed-form formulas; cycles are not simulated.
 
+use super::planner::{Move, Planner};
+use crate::back::target::Spent;
 use crate::geom::{Vector, left};
+use crate::machine::gcode::Step;
 use crate::machine::{Job, Limits};
 
 /// Fraction of the acceleration that an arc may use towards its centre, and the fraction then available along it.
@@ -20,21 +23,6 @@ const LEAN_SPEED_SHARE: f64 = 0.5;
 const KINK_MIN: f64 = 1e-3;
 /// Minimum number of cycles per move.
 const CYCLES_MIN: f64 = 3.0;
-
-/// A move of the axes, as written in the program.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Move {
-    /// Absolute distances of X, Y (mm) and absolute turn of C (rad).
-    pub(super) ways: [f64; 3],
-    /// Length of the path of the C axis over the table, mm.
-    pub(super) length: f64,
-    /// Speed requested by F, mm/s; infinite for rapid moves.
-    pub(super) speed: f64,
-    /// Unit vectors along it at its ends; zero when only C moves.
-    pub(super) along: [Vector; 2],
-    /// Curvature, left positive, per mm; 0 = straight.
-    pub(super) curvature: f64,
-}
 
 /// Accumulates the time of moves.
 #[derive(Debug)]
@@ -73,42 +61,21 @@ impl Pace {
         }
     }
 
-    /// Adds a move.
-    pub(super) fn go(&mut self, step: &Move) {
-        if let Some(planned) = self.planned(step) {
-            self.moves.push(planned);
-        }
-    }
-
-    /// Brings the axes to rest and adds a waiting time, s.
-    pub(super) fn wait(&mut self, time: f64) {
-        self.rest();
-        self.time += time;
-    }
-
-    /// Total time, s.
-    pub(super) fn finish(mut self) -> f64 {
-        self.rest();
-        self.time
-    }
-
     /// The limits of a move, set by its slowest axis; `None` for a move without length.
     fn planned(&self, step: &Move) -> Option<Planned> {
-        let limits = &self.limits[usize::from(step.speed.is_infinite())];
+        let limits = &self.limits[usize::from(step.feed.speed.is_infinite())];
+        let ways = step.ways.map(f64::abs);
         let straight = step.curvature == 0.0;
         // A move of C alone is measured by its turn.
-        let length = if step.length > 0.0 { step.length } else { step.ways[2] };
+        let length = if step.length > 0.0 { step.length } else { ways[2] };
         if length == 0.0 {
             return None;
         }
         let slowest = |limit: fn(&Limits) -> f64| {
             let along_arc = || length / limit(&limits[0]).min(limit(&limits[1]));
-            let linear = if straight {
-                (step.ways[0] / limit(&limits[0])).max(step.ways[1] / limit(&limits[1]))
-            } else {
-                along_arc()
-            };
-            length / linear.max(step.ways[2] / limit(&limits[2]))
+            let linear =
+                if straight { (ways[0] / limit(&limits[0])).max(ways[1] / limit(&limits[1])) } else { along_arc() };
+            length / linear.max(ways[2] / limit(&limits[2]))
         };
         let (mut most, mut acceleration) = (slowest(|l| l.speed), slowest(|l| l.acceleration));
         if self.blend.is_some() {
@@ -117,26 +84,13 @@ impl Pace {
         let mut lean = 0.0;
         if !straight {
             most = most.min((NORMAL_SHARE * slowest(|l| l.acceleration) / step.curvature.abs()).sqrt());
-            lean = (LEAN_SPEED_SHARE * step.speed.min(most)).powi(2) * step.curvature / acceleration;
+            lean = (LEAN_SPEED_SHARE * step.feed.speed.min(most)).powi(2) * step.curvature / acceleration;
             acceleration *= ALONG_SHARE;
         }
-        let speed = step.speed.min(most).min(length / (CYCLES_MIN * self.cycle));
+        let speed = step.feed.speed.min(most).min(length / (CYCLES_MIN * self.cycle));
         let [start, end] = step.along;
         let start = (start + left(start) * lean).try_normalize(0.0).unwrap_or_default();
         Some(Planned { length, speed, acceleration, directions: [start, end] })
-    }
-
-    /// The F at which an arc takes the least time, mm/s. A higher F would slow it down at its start.
-    pub(super) fn best_speed(&self, length: f64, curvature: f64) -> f64 {
-        let Some(tolerance) = self.blend.filter(|&tolerance| tolerance > 0.0) else { return f64::INFINITY };
-        let [x, y, _] = self.limits[0];
-        let whole = x.acceleration.min(y.acceleration);
-        let acceleration = ALONG_SHARE * BLEND_SHARE * whole;
-        // At a speed v the arc leans by v^2 k / (2 a), so it may start at 2 a sqrt(t / k) / v: this is the product of the two.
-        let product = 2.0 * whole * (tolerance / curvature.abs()).sqrt();
-        // The move then takes (v - product / v) / a + l / v.
-        let reached = acceleration * length;
-        if reached <= product { reached.sqrt() } else { (reached - product).max(product).sqrt() }
     }
 
     /// Adds the time of the moves up to a rest.
@@ -162,6 +116,42 @@ impl Pace {
     }
 }
 
+impl Planner for Pace {
+    fn go(&mut self, step: &Move) {
+        if let Some(planned) = self.planned(step) {
+            self.moves.push(planned);
+        }
+    }
+
+    /// Every step stops the axes; its own time is not known.
+    fn steps(&mut self, _: &[Step]) {
+        self.rest();
+    }
+
+    fn wait(&mut self, time: f64) {
+        self.rest();
+        self.time += time;
+    }
+
+    /// A higher F would slow an arc down at its start.
+    fn best_speed(&self, length: f64, curvature: f64) -> f64 {
+        let Some(tolerance) = self.blend.filter(|&tolerance| tolerance > 0.0) else { return f64::INFINITY };
+        let [x, y, _] = self.limits[0];
+        let whole = x.acceleration.min(y.acceleration);
+        let acceleration = ALONG_SHARE * BLEND_SHARE * whole;
+        // At a speed v the arc leans by v^2 k / (2 a), so it may start at 2 a sqrt(t / k) / v: this is the product of the two.
+        let product = 2.0 * whole * (tolerance / curvature.abs()).sqrt();
+        // The move then takes (v - product / v) / a + l / v.
+        let reached = acceleration * length;
+        if reached <= product { reached.sqrt() } else { (reached - product).max(product).sqrt() }
+    }
+
+    fn finish(&mut self) -> Spent {
+        self.rest();
+        Spent { time: self.time, limits: Vec::new() }
+    }
+}
+
 /// Speed of a move below which the next one starts, mm/s.
 fn blended([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
     let reached = |planned: &Planned| (planned.acceleration * planned.length).sqrt().min(planned.speed);
@@ -182,10 +172,13 @@ fn blended([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::back::gcode::pace::planner::Feed;
+    use crate::back::target::Limit;
 
     fn line(length: f64, along: Vector) -> Move {
-        let ways = [length * along.x.abs(), length * along.y.abs(), 1e-9];
-        Move { ways, length, speed: 200.0, along: [along; 2], curvature: 0.0 }
+        let ways = [length * along.x, length * along.y, 1e-9];
+        let feed = Feed { speed: 200.0, limit: Limit::Feed };
+        Move { ways, length, feed, along: [along; 2], curvature: 0.0 }
     }
 
     fn time(moves: &[Move]) -> f64 {
@@ -193,7 +186,7 @@ mod tests {
         for step in moves {
             pace.go(step);
         }
-        pace.finish()
+        pace.finish().time
     }
 
     #[test]

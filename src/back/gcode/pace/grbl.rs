@@ -1,0 +1,354 @@
+//! The planner of the grbl family: grbl 1.1, grbl-Mega-5X, grblHAL and `FluidNC`.
+//!
+//! All of them plan alike (`planner.c`: gnea/grbl 12f48a00, fra589/grbl-Mega-5X baaa1be3, grblHAL/core 030c8299; `Planner.cpp`:
+//! bdring/FluidNC 035e77e2). The length of a block is the norm of its distances along all axes, degrees of a rotary axis counted
+//! as mm. Limits of an axis, divided by its share of the direction, limit speed and acceleration. At a junction the speed is
+//! that of an arc which passes it at the junction deviation d: v^2 = a d s / (1 - s), where s is the sine of half the angle
+//! between the blocks and a the acceleration along the difference of their directions. Arcs become chords (`mc_arc` in
+//! `motion_control.c`), along which the rotary axis turns evenly. Steps of motors, single precision and the jerk of grblHAL's
+//! `ENABLE_JERK_ACCELERATION`, which is off unless built in, are not considered.
+
+use super::buffer::{Block, Supply, durations};
+use super::planner::{Move, Planner};
+use crate::back::target::{Limit, Spent};
+use crate::geom::Vector;
+use crate::machine::gcode::{Gcode, Outputs, Step};
+use crate::machine::{Job, Limits};
+use crate::units::{S_PER_MIN, deg};
+
+/// Letters of the axes, in the order of their distances.
+const AXES: [char; 4] = ['x', 'y', 'z', 'c'];
+/// Cosine of the angle between two directions above which they are one, and below whose negative they are opposite.
+const STRAIGHT: f64 = 0.999_999;
+/// Least speed of a block: 1 mm/min.
+const SPEED_MIN: f64 = 1.0 / S_PER_MIN;
+
+/// Speed and acceleration of an axis, mm or degrees.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
+    speed: f64,
+    acceleration: f64,
+}
+
+/// Planner with the blocks since the last rest.
+#[derive(Debug)]
+pub(super) struct Pace {
+    keys: Gcode,
+    /// Limits of the axes with the knife down, and with the knife up.
+    axes: [[Axis; 4]; 2],
+    /// Place of Z, mm; `None` before its first move.
+    z: Option<f64>,
+    blocks: Vec<Block>,
+    /// Limit of the speed and of the acceleration of each block.
+    limits: Vec<[Limit; 2]>,
+    /// Direction of the last block.
+    along: [f64; 4],
+    spent: Vec<(Limit, f64)>,
+}
+
+/// A block as it is asked for.
+struct Asked {
+    /// Distances along the axes, mm and degrees.
+    ways: [f64; 4],
+    /// Speed along it, per s; infinite for rapid moves.
+    speed: f64,
+    limit: Limit,
+    is_line: bool,
+}
+
+impl Pace {
+    pub(super) fn new(job: &Job) -> Self {
+        let (keys, axes) = (job.profile.gcode.clone(), &job.profile.axes);
+        let linear = |limits: &Limits| Axis { speed: limits.speed, acceleration: limits.acceleration };
+        let z = Axis {
+            speed: keys.z_speed_mm_s.unwrap_or(f64::INFINITY),
+            acceleration: keys.z_acceleration_mm_s2.unwrap_or(f64::INFINITY),
+        };
+        let axes = [axes.limits(), axes.travel_limits()].map(|[x, y, c]| {
+            let c = Axis { speed: deg(c.speed), acceleration: deg(c.acceleration) };
+            [linear(&x), linear(&y), z, c]
+        });
+        Self { keys, axes, z: None, blocks: Vec::new(), limits: Vec::new(), along: [0.0; 4], spent: Vec::new() }
+    }
+
+    /// Adds a block with the limits of the axes along it.
+    fn push(&mut self, asked: &Asked) {
+        let length = norm(asked.ways);
+        if length == 0.0 {
+            return;
+        }
+        let along = asked.ways.map(|way| way / length);
+        let axes = self.axes[usize::from(asked.speed.is_infinite())];
+        let (most, axis) = slowest(along, axes.map(|axis| axis.speed));
+        let (acceleration, ramp) = slowest(along, axes.map(|axis| axis.acceleration));
+        let limit = if most < asked.speed { Limit::Speed(axis) } else { asked.limit };
+        let speed = most.min(asked.speed).max(SPEED_MIN);
+        let entry = self.blocks.last().map_or(0.0, |before| {
+            let corner =
+                junction([self.along, along], axes.map(|axis| axis.acceleration), self.keys.junction_deviation_mm);
+            corner.min(before.speed.min(speed).powi(2))
+        });
+        self.blocks.push(Block { length, speed, acceleration, entry, is_line: asked.is_line });
+        self.limits.push([limit, Limit::Acceleration(ramp)]);
+        self.along = along;
+    }
+
+    /// Adds the chords of an arc.
+    fn arc(&mut self, step: &Move, turn: f64, speed: f64) {
+        let (radius, sweep) = (step.curvature.abs().recip(), step.length * step.curvature);
+        let tolerance = self.keys.arc_tolerance_mm;
+        let half = (tolerance * (2.0 * radius - tolerance)).max(0.0).sqrt();
+        let count = (0.5 * step.length / half).floor().max(1.0);
+        let angle = sweep / count;
+        let length = 2.0 * radius * (0.5 * angle.abs()).sin();
+        for i in 0..count as usize {
+            let (sin, cos) = ((i as f64 + 0.5) * angle).sin_cos();
+            let along = step.along[0];
+            let chord = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos) * length;
+            let ways = [chord.x, chord.y, 0.0, turn / count];
+            self.push(&Asked { ways, speed, limit: step.feed.limit, is_line: i == 0 });
+        }
+    }
+
+    /// Moves Z. Its first move starts from an unknown place and takes no time, like all of them without its limits.
+    fn lift(&mut self, to: f64, feed_mm_min: Option<f64>) {
+        let way = self.z.replace(to).map_or(0.0, |from| to - from);
+        if self.keys.z_speed_mm_s.is_none() || self.keys.z_acceleration_mm_s2.is_none() {
+            self.stop();
+            return;
+        }
+        let speed = feed_mm_min.map_or(f64::INFINITY, |feed| feed / S_PER_MIN);
+        self.push(&Asked { ways: [0.0, 0.0, way, 0.0], speed, limit: Limit::Speed('z'), is_line: true });
+    }
+
+    /// Brings the axes to rest.
+    fn stop(&mut self) {
+        let room = self.keys.planner_blocks as usize;
+        let gap = self.keys.max_blocks_s.map_or(0.0, f64::recip);
+        let free = durations(&self.blocks, Supply::UNLIMITED);
+        let [fed, supplied] = [0.0, gap].map(|gap| durations(&self.blocks, Supply { room, gap }).iter().sum::<f64>());
+        let blocks = std::mem::take(&mut self.blocks);
+        let limits = std::mem::take(&mut self.limits);
+        for ((block, [speed, ramp]), time) in blocks.iter().zip(limits).zip(&free) {
+            let level = block.length / block.speed;
+            self.spend(speed, level);
+            self.spend(ramp, time - level);
+        }
+        self.spend(Limit::LookAhead, fed - free.iter().sum::<f64>());
+        self.spend(Limit::Late, supplied - fed);
+    }
+
+    fn spend(&mut self, limit: Limit, time: f64) {
+        match self.spent.iter_mut().find(|(known, _)| *known == limit) {
+            Some((_, sum)) => *sum += time,
+            None => self.spent.push((limit, time)),
+        }
+    }
+}
+
+impl Planner for Pace {
+    fn go(&mut self, step: &Move) {
+        let [x, y, c] = step.ways;
+        let turn = deg(c);
+        let ratio = if step.length > 0.0 { step.length.hypot(turn) / step.length } else { 1.0 };
+        let speed = step.feed.speed * ratio;
+        if step.curvature == 0.0 {
+            self.push(&Asked { ways: [x, y, 0.0, turn], speed, limit: step.feed.limit, is_line: true });
+        } else {
+            self.arc(step, turn, speed);
+        }
+    }
+
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            match step {
+                Step::Z { to_mm, feed_mm_min } => self.lift(*to_mm, *feed_mm_min),
+                Step::Dwell { time } => self.wait(*time),
+                // Outputs that are switched when they are read leave the moves before them running.
+                Step::Output { .. } | Step::Code { m: 68, .. } if self.keys.outputs == Outputs::Immediate => {}
+                Step::Output { .. } | Step::Code { .. } => self.stop(),
+            }
+        }
+    }
+
+    fn wait(&mut self, time: f64) {
+        self.stop();
+        self.spend(Limit::Rest, time);
+    }
+
+    /// F does not change the speeds of junctions.
+    fn best_speed(&self, _: f64, _: f64) -> f64 {
+        f64::INFINITY
+    }
+
+    fn finish(&mut self) -> Spent {
+        self.stop();
+        let mut limits = std::mem::take(&mut self.spent);
+        limits.retain(|(_, time)| *time > 0.0);
+        limits.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Spent { time: limits.iter().map(|(_, time)| time).sum(), limits }
+    }
+}
+
+fn norm(ways: [f64; 4]) -> f64 {
+    ways.iter().map(|way| way * way).sum::<f64>().sqrt()
+}
+
+/// Greatest value along a direction at which no axis exceeds its own, and the letter of the axis that limits it.
+fn slowest(along: [f64; 4], most: [f64; 4]) -> (f64, char) {
+    let shares =
+        along.iter().zip(most).map(|(share, most)| if *share == 0.0 { f64::INFINITY } else { most / share.abs() });
+    shares.zip(AXES).fold((f64::INFINITY, 'x'), |least, next| if next.0 < least.0 { next } else { least })
+}
+
+/// Square of the greatest speed between two directions.
+fn junction([before, after]: [[f64; 4]; 2], accelerations: [f64; 4], deviation: f64) -> f64 {
+    let cosine: f64 = before.iter().zip(after).map(|(a, b)| a * b).sum();
+    if cosine > STRAIGHT {
+        return f64::INFINITY;
+    }
+    if cosine < -STRAIGHT {
+        return 0.0;
+    }
+    let mut change: [f64; 4] = std::array::from_fn(|i| after[i] - before[i]);
+    let size = norm(change);
+    change = change.map(|way| way / size);
+    let (acceleration, _) = slowest(change, accelerations);
+    let sine = (0.5 * (1.0 + cosine)).sqrt();
+    acceleration * deviation * sine / (1.0 - sine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::back::gcode::pace::planner::Feed;
+    use crate::geom::left;
+    use crate::machine::gcode::Planner as Kind;
+    use crate::units::rad;
+
+    /// A controller with Z whose C axis takes 1000 degrees/s and 10,000 degrees/s2, X and Y 500 mm/s and 4000 mm/s2.
+    fn pace() -> Pace {
+        let mut job = Job::default();
+        let keys = &mut job.profile.gcode;
+        keys.planner = Kind::Grbl;
+        keys.outputs = Outputs::Immediate;
+        (keys.z_speed_mm_s, keys.z_acceleration_mm_s2) = (Some(50.0), Some(500.0));
+        let axes = &mut job.profile.axes;
+        for axis in [&mut axes.x, &mut axes.y] {
+            (axis.speed_mm_s, axis.acceleration_mm_s2) = (500.0, 4000.0);
+        }
+        (axes.c.speed_deg_s, axes.c.acceleration_deg_s2) = (1000.0, 10_000.0);
+        Pace::new(&job)
+    }
+
+    fn line(way: Vector, turn_deg: f64) -> Move {
+        let along = way.try_normalize(0.0).unwrap_or_default();
+        let feed = Feed { speed: 200.0, limit: Limit::Feed };
+        Move { ways: [way.x, way.y, rad(turn_deg)], length: way.norm(), feed, along: [along; 2], curvature: 0.0 }
+    }
+
+    fn time(moves: &[Move]) -> f64 {
+        let mut pace = pace();
+        for step in moves {
+            pace.go(step);
+        }
+        pace.finish().time
+    }
+
+    fn check(time: f64, expected: f64) {
+        assert!((time - expected).abs() < 1e-9, "{time} {expected}");
+    }
+
+    #[test]
+    fn a_line_takes_its_whole_acceleration() {
+        check(time(&[line(Vector::new(100.0, 0.0), 0.0)]), 100.0 / 200.0 + 200.0 / 4000.0);
+        check(time(&[line(Vector::new(50.0, 0.0), 0.0); 2]), 100.0 / 200.0 + 200.0 / 4000.0);
+    }
+
+    #[test]
+    fn degrees_count_as_mm_and_the_slowest_axis_limits_the_block() {
+        // 30 mm and 40 degrees are 50 long: the speed of 200 mm/s is 333, of which C takes 0.8.
+        let block = line(Vector::new(30.0, 0.0), 40.0);
+        let speed = 200.0 / 0.6;
+        let acceleration: f64 = (4000.0_f64 / 0.6).min(10_000.0 / 0.8);
+        check(time(&[block]), 50.0 / speed + speed / acceleration);
+        let mut pace = pace();
+        pace.go(&line(Vector::new(1.0, 0.0), -100.0));
+        let spent = pace.finish();
+        assert_eq!(
+            spent.limits.iter().map(|(limit, _)| *limit).collect::<Vec<_>>(),
+            [Limit::Acceleration('c'), Limit::Speed('c'),]
+        );
+        // C alone.
+        check(time(&[line(Vector::default(), 180.0)]), 180.0 / 200.0 + 200.0 / 10_000.0);
+    }
+
+    #[test]
+    fn a_right_angle_is_taken_as_fast_as_the_junction_deviation_allows() {
+        // The change of direction is at 45 degrees, so both axes together reach sqrt(2) of their acceleration.
+        let half = 0.5_f64.sqrt();
+        let corner = 4000.0 / half * 0.01 * half / (1.0 - half);
+        let leg = (200.0 * 200.0 - corner) / 8000.0;
+        let ramps = 200.0 / 4000.0 + (200.0 - corner.sqrt()) / 4000.0;
+        let level = (100.0 - 200.0 * 200.0 / 8000.0 - leg) / 200.0;
+        let [there, up] = [Vector::new(100.0, 0.0), Vector::new(0.0, 100.0)].map(|way| line(way, 0.0));
+        check(time(&[there, up]), 2.0 * (ramps + level));
+        // It stops where it turns back.
+        check(time(&[there, line(Vector::new(-100.0, 0.0), 0.0)]), 2.0 * time(&[there]));
+    }
+
+    #[test]
+    fn an_arc_is_chords_of_its_tolerance_on_which_c_turns_evenly() {
+        let (radius, sweep) = (50.0, 1.5_f64);
+        let along = Vector::new(0.0, 1.0);
+        let end = Vector::new(radius * (sweep.cos() - 1.0), radius * sweep.sin());
+        let feed = Feed { speed: 100.0, limit: Limit::Feed };
+        let arc = Move {
+            ways: [end.x, end.y, sweep],
+            length: radius * sweep,
+            feed,
+            along: [along, left(end.normalize())],
+            curvature: radius.recip(),
+        };
+        let mut pace = pace();
+        pace.go(&arc);
+        // floor(0.5 r t / sqrt(d (2 r - d))), as the firmware counts them.
+        assert_eq!(pace.blocks.len(), 83);
+        let turn = deg(sweep) / 83.0;
+        let chord = 2.0 * radius * (0.5 * sweep / 83.0).sin();
+        assert!(pace.blocks.iter().all(|block| (block.length - chord.hypot(turn)).abs() < 1e-9));
+        assert_eq!(pace.blocks.iter().filter(|block| block.is_line).count(), 1);
+        let spent = pace.finish();
+        assert!((spent.time - 0.78).abs() < 0.02, "{spent:?}");
+        assert!(spent.time >= arc.length / 100.0 * 0.9999);
+    }
+
+    #[test]
+    fn z_is_a_move_and_rests_and_codes_stop_the_axes() {
+        let mut pace = pace();
+        let z = |to_mm, feed_mm_min| Step::Z { to_mm, feed_mm_min };
+        // Nobody knows where Z is at first.
+        pace.steps(&[z(5.0, None), Step::Dwell { time: 0.25 }, z(-5.0, None)]);
+        pace.steps(&[Step::Code { m: 3, parameters: Vec::new() }, z(5.0, Some(600.0)), Step::Dwell { time: 0.0 }]);
+        let fast = 10.0 / 50.0 + 50.0 / 500.0;
+        let slow = 10.0 / 10.0 + 10.0 / 500.0;
+        let spent = pace.finish();
+        check(spent.time, 0.25 + fast + slow);
+        assert!(spent.limits.contains(&(Limit::Rest, 0.25)));
+        check(spent.limits.iter().map(|(_, time)| time).sum(), spent.time);
+    }
+
+    #[test]
+    fn only_an_output_that_is_switched_when_it_is_read_lets_the_axes_go_on() {
+        let block = line(Vector::new(50.0, 0.0), 0.0);
+        let output = Step::Output { pin: crate::machine::gcode::Number::Plain(0.0), on: true };
+        for (outputs, stops) in [(Outputs::Immediate, 1), (Outputs::Queued, 2)] {
+            let mut pace = pace();
+            pace.keys.outputs = outputs;
+            pace.go(&block);
+            pace.steps(std::slice::from_ref(&output));
+            pace.go(&block);
+            check(pace.finish().time, 100.0 / 200.0 + f64::from(stops) * 200.0 / 4000.0);
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Planners of controllers: the time that a program takes there, and what limits it.
+//!
+//! `gcode.planner` chooses the planner. A planner is given the moves of the program and the steps between them, in order; it
+//! simulates how the controller carries them out.
+
+mod buffer;
+mod grbl;
+mod linuxcnc;
+mod planner;
+
+pub(super) use self::planner::{Feed, Move, Planner};
+use crate::machine::Job;
+use crate::machine::gcode;
+
+/// The planner of the controller of a job, before the first move.
+pub(super) fn planner(job: &Job) -> Box<dyn Planner> {
+    match job.profile.gcode.planner {
+        gcode::Planner::Linuxcnc => Box::new(linuxcnc::Pace::new(job)),
+        gcode::Planner::Grbl => Box::new(grbl::Pace::new(job)),
+    }
+}
