@@ -5,6 +5,8 @@ step the axes go as fast as they can and still stop within the blocks that the p
 The rules of blocks and junctions are those of grbl's planner.c and motion_control.c.
 
     python3 tests/bench/grbl_time.py target/release/cutc fixtures/pictures/marker.cut [-p fluidnc]... [--set KEY=VALUE]...
+
+With `--steps X Y Z C` positions are rounded to steps of the motors, so many a mm or a degree, as the firmware does it.
 """
 
 import argparse
@@ -37,8 +39,9 @@ def along(direction, most):
 
 
 class Machine:
-    def __init__(self, profile):
+    def __init__(self, profile, steps=None):
         keys = profile["gcode"]
+        self.steps = steps
         self.speeds, self.accelerations = limits(profile)
         self.room = keys["planner_blocks"]
         self.deviation, self.tolerance = keys["junction_deviation_mm"], keys["arc_tolerance_mm"]
@@ -81,6 +84,10 @@ class Machine:
         if codes & {"G2", "G3"}:
             points = self.chords(start, ends, values["I"], values["J"], "G3" in codes)
         first = True
+        if self.steps:
+            start, *points = (
+                [round(place * steps) / steps for place, steps in zip(point, self.steps)] for point in (start, *points)
+            )
         for point in points:
             ways = [b - a for a, b in zip(start, point)]
             length = math.sqrt(sum(way * way for way in ways))
@@ -176,6 +183,7 @@ def main():
     arguments.add_argument("files", nargs="+")
     arguments.add_argument("-p", dest="profiles", action="append")
     arguments.add_argument("--set", dest="set", action="append", default=[])
+    arguments.add_argument("--steps", type=float, nargs=4)
     given = arguments.parse_args()
     options = [word for pair in given.set for word in ("--set", pair)]
     print(f"{'file':32} {'profile':14} {'cutc, s':>10} {'steps, s':>10} {'differs':>8}")
@@ -188,7 +196,7 @@ def main():
                 command = [given.cutc, "compile", name, "-p", profile, "-t", "gcode", "-o", str(out), "--format", "json"]
                 told = subprocess.run([*command, *options], capture_output=True, text=True)
                 ours = json.loads(told.stdout)["controller"]["time_s"]
-                theirs = Machine(keys).run(out.read_text())
+                theirs = Machine(keys, given.steps).run(out.read_text())
             print(f"{Path(name).name:32} {profile:14} {ours:10.3f} {theirs:10.3f} {100 * (ours / theirs - 1):7.2f} %")
 
 

@@ -1,12 +1,13 @@
 //! The planner of the grbl family: grbl 1.1, grbl-Mega-5X, grblHAL and `FluidNC`.
 //!
-//! All of them plan alike (`planner.c`: gnea/grbl 12f48a00, fra589/grbl-Mega-5X baaa1be3, grblHAL/core 030c8299; `Planner.cpp`:
-//! bdring/FluidNC 035e77e2). The length of a block is the norm of its distances along all axes, degrees of a rotary axis counted
-//! as mm. Limits of an axis, divided by its share of the direction, limit speed and acceleration. At a junction the speed is
-//! that of an arc which passes it at the junction deviation d: v^2 = a d s / (1 - s), where s is the sine of half the angle
-//! between the blocks and a the acceleration along the difference of their directions. Arcs become chords (`mc_arc` in
-//! `motion_control.c`), along which the rotary axis turns evenly. Steps of motors, single precision and the jerk of grblHAL's
-//! `ENABLE_JERK_ACCELERATION`, which is off unless built in, are not considered.
+//! All of them plan alike (`planner.c`: gnea/grbl 12f48a00, fra589/grbl-Mega-5X baaa1be3, grblHAL/core 030c8299;
+//! `Planner.cpp`: bdring/FluidNC 035e77e2). The length of a block is the norm of its distances along all axes, degrees of a
+//! rotary axis counted as mm. Limits of an axis, divided by its share of the direction, limit speed and acceleration. At a
+//! junction the speed is that of an arc which passes it at the junction deviation d: v^2 = a d s / (1 - s), where s is the sine
+//! of half the angle between the blocks and a the acceleration along the difference of their directions. Arcs become chords
+//! (`mc_arc` in `motion_control.c`), along which the rotary axis turns evenly. Not considered are steps of motors, single
+//! precision, and the jerk of grblHAL's `ENABLE_JERK_ACCELERATION`, which is off unless built in. `tests/bench/grbl_time.py`
+//! compares the times with those of a simulation by small steps of time.
 
 use super::buffer::{Block, Supply, durations};
 use super::planner::{Move, Planner};
@@ -327,7 +328,7 @@ mod tests {
     fn z_is_a_move_and_rests_and_codes_stop_the_axes() {
         let mut pace = pace();
         let z = |to_mm, feed_mm_min| Step::Z { to_mm, feed_mm_min };
-        // Nobody knows where Z is at first.
+        // The first move of Z starts from an unknown place.
         pace.steps(&[z(5.0, None), Step::Dwell { time: 0.25 }, z(-5.0, None)]);
         pace.steps(&[Step::Code { m: 3, parameters: Vec::new() }, z(5.0, Some(600.0)), Step::Dwell { time: 0.0 }]);
         let fast = 10.0 / 50.0 + 50.0 / 500.0;
