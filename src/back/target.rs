@@ -97,7 +97,7 @@ pub struct Outcome<'a> {
     /// Programs that the same compile writes to files; empty when they are refused.
     pub programs: &'a [Beside],
     /// Time of a program among them that its controller plans for itself.
-    pub controller: Option<Estimate>,
+    pub controller: Option<&'a Estimate>,
 }
 
 /// Program that is written beside a page about it.

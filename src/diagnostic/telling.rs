@@ -15,7 +15,7 @@ pub enum Severity {
 /// Harm to parts. Findings that may spoil parts are reported before others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Harm {
-    /// Cloth may be cut in a wrong place or at a wrong size, which cannot be mended.
+    /// Cloth may be cut in a wrong place or at a wrong size, which cannot be mended, or a part may be missing.
     Spoils,
     /// No harm, or harm that is seen and mended.
     Spares,

@@ -76,6 +76,26 @@ impl Kind {
     }
 }
 
+impl Kind {
+    /// Meaning of the kind and of its size, in a sentence for people.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Overcut => {
+                "the blade goes past an inner corner into the part, as the profile asks; the size is how far."
+            }
+            Self::Shortened => {
+                "the blade goes less far past an end than the profile asks, because a part is in the way; the size is what \
+                 is missing."
+            }
+            Self::Plunge => "the straight blade goes down on a curve; the size is how far it stands beside the line.",
+            Self::Surplus => "the blade is longer than a short cut; the size is how deep its end goes into the part.",
+            Self::Swing => "the heel leaves the line behind a bend; the size is how far.",
+            Self::Nibbled => "a tight curve is cut by plunges without motion; the size is the length of one. No harm.",
+            Self::Lift => "the knife is lifted and goes down again where the drawing has no end. No harm.",
+        }
+    }
+}
+
 /// Summary of all declarations of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Total {

@@ -157,7 +157,7 @@ pub fn compile_all(
     })?;
     let mut report = Report::of(&input.marker, input.dialect.name).planned(written.program, &input.marker);
     report.declared = declare::totals(&written.declared, &input.marker);
-    report.controller = written.estimate.map(Controller::from);
+    report.controller = written.estimate.clone().map(Controller::from);
     let mut verdict: Option<Verdict> = None;
     if verify && !diagnostics.has_errors() {
         let declared = Declared::new(written.declared.clone());
@@ -167,7 +167,7 @@ pub fn compile_all(
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
-    let (declared, deviations, controller) = (&report.declared[..], &written.declared[..], written.estimate);
+    let (declared, deviations, controller) = (&report.declared[..], &written.declared[..], written.estimate.as_ref());
     let known = Known { verdict: verdict.as_ref(), declared, deviations, controller };
     finish(&context, (products, &mut pages), known, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
@@ -226,7 +226,7 @@ struct Known<'a> {
     verdict: Option<&'a Verdict>,
     declared: &'a [Total],
     deviations: &'a [Declaration],
-    controller: Option<Estimate>,
+    controller: Option<&'a Estimate>,
 }
 
 /// Writes the tails of programs that show the verdict, and marks those that show a refused program.

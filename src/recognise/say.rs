@@ -157,6 +157,11 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         let found = found.about(doubts::numbers(&owners(sheet), &parts));
         out.push(found.hint("`--set hpgl.frame=outermost` if it is one; `--inner cut` cuts cut-outs"));
     }
+    single_lines(&others, sheet, job, out);
+}
+
+/// Single closed lines inside parts, with the parts.
+fn single_lines(others: &[(usize, &[&Line])], sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     let single: Vec<&Line> = others.iter().flat_map(|(_, held)| *held).copied().collect();
     if let Some(first) = single.first() {
         let lines = counted(&single, "closed line");
@@ -172,7 +177,9 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
                 "`--inner cut` cuts cut-outs; `cutc info` and `-t svg` show what lines were taken for",
             )
         };
-        out.push(finding(&code::DRAWING_INNER_LINES, message, first, sheet).hint(hint));
+        let parts: Vec<usize> = others.iter().map(|(part, _)| *part).collect();
+        let found = finding(&code::DRAWING_INNER_LINES, message, first, sheet);
+        out.push(found.about(doubts::numbers(&owners(sheet), &parts)).hint(hint));
     }
 }
 

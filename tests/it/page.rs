@@ -98,7 +98,7 @@ fn limits_of_the_report_are_those_of_the_profile() {
     // Rows are rounded: a jerk may be above its limit by that, and is not broken.
     let jerk = of("verify/jerk-x");
     let (worst, share) = (jerk[2].0.expect("a jerk"), jerk[4].0.expect("a share"));
-    assert!((share - worst / 2000.0).abs() < 1e-6 && worst > 200_000.0 && jerk[1].1 == "holds", "{jerk:?}");
+    assert!((share - worst / 2040.0).abs() < 1e-3 && worst > 200_000.0 && jerk[1].1 == "holds", "{jerk:?}");
     assert!(jerk[6].1.contains("up to 204000 mm/s3 is the rounding of the printed rows"), "{jerk:?}");
     assert!(!of("verify/speed-y")[6].1.contains("rounding"));
 }
@@ -147,7 +147,7 @@ fn a_page_beside_g_code_has_the_time_of_its_controller() {
     let said = room.says("compile named.cut -t gcode,html --rate 36/h", DONE);
     let page = room.text("named.html");
     let time = fact(&page, "Time on the controller");
-    let of_controller = between(&time, "about ", " by its own planning");
+    let of_controller = between(&time, "about ", " by LinuxCNC's planner, ");
     let seconds: f64 = of_controller.trim_end_matches(" s").parse().expect("seconds");
     assert!(said.contains("controller about") || said.contains("controller  about"), "{said}");
     assert!(between(&page, "<header>", "</header>").contains(&format!("about {of_controller} on the controller")));

@@ -37,7 +37,7 @@ codes! {
     /// N while the knife is down, and what follows is another piece.
     ISO_PIECE_KNIFE_DOWN = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.", "Without the M15 the knife would cut from one piece to the next, through whatever lies between. Some controllers insert an N amid an outline: that is no fault, as long as the outline goes on.\n  X0Y0*M15*N2*X4000Y0*M14*   is right; X0Y0*N2*X4000Y0*M14* lacks the M15.");
     /// Places in the air where nothing is done.
-    ISO_UNCUT_PLACES = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
+    ISO_UNCUT_PLACES = warning(Spoils, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
     /// Codes that have no business in a cut.
     ISO_MISPLACED = error(Text, "iso/misplaced-code", "A code stands where it cannot: amid a cut, or behind a place in its block.", "A character of a place was changed, so that the knife would miss it or go elsewhere: X4000Y3H00 instead of X4000Y3000, or QX4000Y0, which parks. Transfer the file again.\n  X4000Y3000*M15*   is right; X4000Y300Q* is not.");
     /// A plunge at the end of another contour.
@@ -107,7 +107,7 @@ codes! {
     /// More numbers than an instruction takes.
     HPGL_NUMBERS = error(Text, "hpgl/too-many-numbers", "An instruction of a plot has more numbers than it takes: it may be a line whose mnemonic was changed.", "The places of a line behind another mnemonic draw nothing, so that a part or a mark would be lost. The hint names the instruction that was most likely meant. Transfer the file again, or mend the letter.\n  PT36400,400,36400,12400;   was PD36400,400,36400,12400;");
     /// Places in the air where nothing is drawn.
-    HPGL_UNCUT_PLACES = warning(Spares, Shape, "hpgl/uncut-places", "Places in a row are passed with the pen up, and nothing is drawn: a PD may have become PU or PA.", "An outline whose PD is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  PU36400,400,36400,12400,20400,12400;   draws nothing.");
+    HPGL_UNCUT_PLACES = warning(Spoils, Shape, "hpgl/uncut-places", "Places in a row are passed with the pen up, and nothing is drawn: a PD may have become PU or PA.", "An outline whose PD is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  PU36400,400,36400,12400,20400,12400;   draws nothing.");
     /// No end.
     HPGL_NO_END = warning(Spares, Text, "hpgl/no-end", "A plot ends amid an instruction, where the pen has just come to a place, or before it leaves HP-GL/2.", "Programs lift the pen, park it and put it away, or let the page out. A plot that ends before was most likely cut short on its way: count the pieces with `cutc info` and compare with the marker.");
     /// Numbers in the language of the computer.

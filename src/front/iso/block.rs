@@ -316,7 +316,7 @@ fn remedy(byte: Option<u8>) -> &'static str {
         Some(b'a'..=b'z') => "codes are capital letters; a text stands behind M31 or M20 in a block of its own",
         Some(b'0'..=b'9' | b'+' | b'-' | b'.') => "a letter may be missing before this number, or a digit was doubled",
         Some(b',') => "decimals stand behind a point, if a number has any: export the file so",
-        Some(b'!'..=b'~') => "take it away, or export the file again; only texts behind M31 and M20 have such signs",
+        Some(b'!'..=b'~') => "export it again: a digit may be spoilt; only texts behind M31 and M20 have such signs",
         Some(_) => "the file may be damaged, or a text stands where M31 or M20 is missing; export it again",
     }
 }

@@ -260,7 +260,7 @@ impl Draft {
     pub(super) fn up(&mut self, out: &mut Diagnostics) {
         match self.state {
             State::Up => {
-                self.uncut.end();
+                self.uncut.end(self.current.map(|piece| self.pieces[piece].number));
                 return;
             }
             State::Plunged { .. } => {
@@ -499,7 +499,7 @@ impl Draft {
     fn end_piece(&mut self) {
         let is_empty = |piece: usize| self.pieces[piece].notches.is_empty() && self.pieces[piece].drills.is_empty();
         if self.chains.is_empty() && self.current.is_some_and(is_empty) {
-            self.uncut.end();
+            self.uncut.end(self.current.map(|piece| self.pieces[piece].number));
         }
         self.uncut.settle();
     }

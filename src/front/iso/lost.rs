@@ -17,6 +17,8 @@ pub(super) struct Uncut {
     /// Number of such sequences, and the start of the first.
     rows: usize,
     first: Option<Span>,
+    /// Numbers of the pieces that they are in.
+    pieces: Vec<u32>,
 }
 
 impl Uncut {
@@ -33,11 +35,12 @@ impl Uncut {
         self.places = 0;
     }
 
-    /// Ends the current sequence without an action, by a lift or a new piece.
-    pub(super) fn end(&mut self) {
+    /// Ends the current sequence, which is in a piece, without an action, by a lift or a new piece.
+    pub(super) fn end(&mut self, piece: Option<u32>) {
         if self.places >= LEAST_PLACES {
             self.rows += 1;
             self.first.get_or_insert(self.start);
+            self.pieces.extend(piece.filter(|piece| !self.pieces.contains(piece)));
         }
         self.places = 0;
     }
@@ -47,7 +50,7 @@ impl Uncut {
         let Some(first) = self.first else { return };
         let times = if self.rows == 1 { "once".to_owned() } else { format!("{} times", self.rows) };
         let message = format!("places in a row are passed with the knife up, and nothing is cut: this happens {times}");
-        let finding = Diagnostic::new(&code::ISO_UNCUT_PLACES, message).at(first);
+        let finding = Diagnostic::new(&code::ISO_UNCUT_PLACES, message).at(first).about(self.pieces.clone());
         out.push(finding.hint("an M14 may be missing behind the first of them: then a piece or a cut-out is lost"));
     }
 }

@@ -119,13 +119,16 @@ class Player extends Stage {
       : Number(time) / motion.period;
     if (tick !== null) this.seek(tick);
     this.isAside = tick === null;
+    // What the blade does not pass may be a line that is not cut.
+    if (this.isAside && !this.cloth.shown.aside) element("aside", HTMLInputElement).click();
     // The next Space plays.
     this.frame.focus({ preventScroll: true });
   }
 
   /** Goes to the place of the report after or before the last one. @param {number} by 1 or -1. */
   nextPlace(by) {
-    const buttons = [...jumps()], from = this.jump ? buttons.indexOf(this.jump) : Math.min(0, -by);
+    const buttons = [...jumps()].filter(button => button.checkVisibility());
+    const from = this.jump ? buttons.indexOf(this.jump) : Math.min(0, -by);
     buttons.at((from + by) % buttons.length)?.click();
   }
 

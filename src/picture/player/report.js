@@ -50,14 +50,19 @@ function searchField(body) {
   const field = document.createElement("input");
   Object.assign(field, { type: "search", placeholder: "Search", ariaLabel: "Search the rows" });
   field.addEventListener("input", () => {
-    const words = field.value.toLowerCase().split(/\s+/);
+    // A number belongs to the word before it, and is meant as a whole.
+    const words = plain(field.value).match(/\S+(\s\d+)?/g)?.map(word => word.replace(/^(?=\d)|(?<=\d)$/g, " ")) ?? [];
     for (const row of body.rows) {
-      const text = [...row.cells].map(cell => cell.textContent).join(" ").toLowerCase(), all = text.split(/[^\d.]+/);
-      row.hidden = !words.every(word => /^\d+$/.test(word) ? all.includes(word) : text.includes(word));
+      const cells = [...row.cells].filter(cell => !cell.matches(".number,.count"));
+      const text = plain(cells.map(cell => `${cell.dataset.name ?? ""} ${cell.textContent}`).join(" "));
+      row.hidden = !words.every(word => text.includes(word));
     }
   });
   return field;
 }
+
+/** Words and numbers of a text, with blanks around them. @param {string} text */
+function plain(text) { return ` ${text.toLowerCase().replace(/[^\p{L}\d.]+/gu, " ")} `; }
 
 /** Rows of the table of pieces. @returns {NodeListOf<HTMLTableRowElement>} */
 function pieceRows() { return document.querySelectorAll("#pieces tr[data-part]"); }
@@ -72,9 +77,7 @@ function linkPieces(go) {
     row.addEventListener("click", ({ target }) => {
       if (!(target instanceof Element && target.closest("details"))) go(Number(row.dataset.part));
     });
-    row.addEventListener("keydown", event => {
-      if (event.key === "Enter" && event.target === row) row.click();
-    });
+    row.addEventListener("keydown", ({ key, target }) => key === "Enter" && target === row && row.click());
   }
 }
 

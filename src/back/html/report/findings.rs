@@ -1,6 +1,6 @@
 //! Points that need attention: messages, findings of the verifier, declared deviations.
 
-use super::table;
+use super::table::{self, Cells};
 use crate::back::html::about::{About, Worth, is_finite, place as place_of};
 use crate::back::html::piece::Piece;
 use crate::diagnostic::pieces::listed;
@@ -91,12 +91,21 @@ fn to_do(worth: Worth, is_harm: bool) -> &'static str {
     }
 }
 
+/// Line on declared deviations that lie in parts.
+fn entered(about: &About, out: &mut Markup) {
+    let within = about.outcome.deviations.iter().filter(|entry| entry.part.is_some() && entry.magnitude_mm > 0.0);
+    let Some(deepest) = within.map(|entry| entry.magnitude_mm).reduce(f64::max) else { return };
+    let words = format!("The blade goes into parts by up to {} mm, as declared: ", fixed(deepest, 2));
+    out.open("p", &[]).text(&words).element("a", &[("href", "#deviations")], "where").close("p");
+}
+
 /// The section of errors and warnings, grouped by code.
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
     let is_harm = groups.iter().any(|group| spoils(group.code));
     out.element("p", &[], to_do(about.worth(), is_harm));
+    entered(about, out);
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
@@ -131,14 +140,19 @@ fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Mark
     if let Some(title) = title(about, message) {
         out.text(" ").element("span", &[("class", "quiet")], &title);
     }
-    if let Some(at) = place_of(message) {
-        out.text(" ");
-        jump(out, at, moment(about, message), &told(about, message));
-    }
+    out.text(" ");
+    to_place(about, message, out);
     for hint in message.hints.iter().filter(|hint| !shared.contains(hint)) {
         advice(hint, out);
     }
     out.close("li");
+}
+
+/// Button that leads to the place of a message, if it has one.
+pub(super) fn to_place(about: &About, message: &Diagnostic, out: &mut Markup) {
+    if let Some(at) = place_of(message) {
+        jump(out, at, moment(about, message), &told(about, message));
+    }
 }
 
 /// A line of advice.
@@ -218,7 +232,8 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     match limit {
         Some(limit) => {
             table::number(out, &shown(limit), limit);
-            let share = if limit > 0.0 { PERCENT * worst / limit } else { 0.0 };
+            // What the rounding of the rows adds to a limit is allowed.
+            let share = if limit > 0.0 { PERCENT * worst / allowed.unwrap_or(limit) } else { 0.0 };
             let words = if limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
             table::number(out, &words, share);
         }
@@ -304,11 +319,20 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         out.element("p", &[], &words);
     }
     printed(PRINTED[1], count, out);
-    table::open(out, "sortable", &["Deviation", "Piece", "Into", "#Size, mm", "Where"]);
+    let kinds = Kind::ALL.into_iter().filter(|kind| entries.iter().any(|entry| entry.kind == *kind));
+    for kind in kinds {
+        let [one, _] = kind.words();
+        out.element("p", &[("class", "hint")], &format!("{one}: {}", kind.about()));
+    }
+    let columns = ["Deviation", "Piece", "Into", "#Size, mm", "Where"];
+    table::open(out, "sortable", &columns);
     for entry in entries {
+        let mut cells = Cells::of(&columns, 0);
         let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
         let [one, _] = entry.kind.words();
-        out.open("tr", &[]).element("td", &[], one).element("td", &[], &piece.title());
+        out.open("tr", &[]);
+        cells.text(one, &[], out);
+        cells.text(&piece.title(), &[], out);
         let into = entry.part.and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
             own if own == piece.whole => "its own part".to_owned(),
             _ => part.title(),
@@ -317,9 +341,9 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         if let Some(into) = &into {
             words.extend([" into ", into]);
         }
-        out.element("td", &[], &into.unwrap_or_default());
-        table::number(out, &fixed(entry.magnitude_mm, 3), entry.magnitude_mm);
-        out.open("td", &[]);
+        cells.text(&into.unwrap_or_default(), &[], out);
+        cells.number(&fixed(entry.magnitude_mm, 3), entry.magnitude_mm, out);
+        cells.open(&[], out);
         jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
         out.close("td").close("tr");
     }

@@ -1,5 +1,6 @@
 //! Tables of the pieces and of the windows of a conveyor.
 
+use super::findings::to_place;
 use super::table::{self, Cells};
 use super::totals::limit;
 use crate::analysis::waits::{Waits, waits};
@@ -84,7 +85,8 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges", "Limited by"]);
         let words = "Other: turning, plunging, lifting, drilling and waiting. Limited by: what most of the cutting is \
                      bound by. The totals are those of the tables of time.";
-        out.element("p", &[("class", "hint")], words);
+        let there = about.outcome.controller.map(|_| " All times are those of the motion that is played here.");
+        out.element("p", &[("class", "hint")], &format!("{words}{}", there.unwrap_or_default()));
     }
     let rows = rows(about);
     let has_after = rows.iter().any(|row| !row.after.is_empty());
@@ -133,7 +135,9 @@ fn messages(about: &About, piece: &Piece, cells: &mut Cells, out: &mut Markup) {
     cells.open(&[("class", "count"), ("data-value", &count.to_string())], out);
     out.open("details", &[]).element("summary", &[], &count.to_string()).open("ul", &[]);
     for message in piece.messages.iter().take(MOST_MESSAGES).map(|&message| about.outcome.messages[message]) {
-        out.open("li", &[]).prose(&message.message).text(" ").element("code", &[], message.code.name).close("li");
+        out.open("li", &[]).prose(&message.message).text(" ").element("code", &[], message.code.name).text(" ");
+        to_place(about, message, out);
+        out.close("li");
     }
     out.close("ul").close("details").close("td");
 }

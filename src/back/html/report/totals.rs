@@ -15,6 +15,8 @@ use crate::units::number::{counted, fixed};
 use crate::units::{MM_PER_M, MM2_PER_M2};
 
 const PERCENT: f64 = 100.0;
+/// Least share of the time on a controller whose limit is named.
+const LEAST_SHARE: f64 = 0.005;
 
 /// The job in one line.
 pub(super) fn summary(about: &About) -> String {
@@ -40,7 +42,7 @@ pub(super) fn summary(about: &About) -> String {
 fn time(about: &About) -> Option<f64> {
     let ticks = about.record.all.total();
     let played = (ticks > 0).then(|| about.time(ticks));
-    about.outcome.controller.map(|controller| controller.time).or(played)
+    about.outcome.controller.map(|controller| controller.spent.time).or(played)
 }
 
 /// The section of totals.
@@ -64,8 +66,16 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
         let played = clock(about.time(sums.total())) + moved;
         match about.outcome.controller {
-            Some(Estimate { time, .. }) => {
-                rows.push(("Time on the controller", format!("about {} by its own planning", clock(time))));
+            Some(Estimate { spent, moves, planner }) => {
+                let time = clock(spent.time);
+                rows.push((
+                    "Time on the controller",
+                    format!("about {time} by {planner}'s planner, {moves} arcs and lines"),
+                ));
+                let share = |part: f64| format!("{} %", fixed(PERCENT * part / spent.time, 0));
+                let limits = spent.limits.iter().filter(|(_, part)| *part >= LEAST_SHARE * spent.time);
+                let limits: Vec<String> = limits.map(|(limit, part)| format!("{limit} {}", share(*part))).collect();
+                rows.extend((!limits.is_empty()).then(|| ("It is limited by", limits.join(", "))));
                 rows.push(("Time as played here", played));
             }
             None => rows.push(("Time", played)),
@@ -142,8 +152,8 @@ fn spent(about: &About, sums: &Sums, out: &mut Markup) {
     let words = "Of the tip: with overlaps, without what the blade cuts along its own width where it plunges.";
     out.element("p", &[("class", "hint")], words);
     if about.outcome.controller.is_some() {
-        let words =
-            "The motion that is played here has these times. The controller paces the same way by its own planning.";
+        let words = "The motion that is played here has these times. The controller paces the same way by its own planner, and \
+                     takes longer or shorter over each cut.";
         out.element("p", &[("class", "hint")], words);
     }
     out.close("section");
