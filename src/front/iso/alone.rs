@@ -1,7 +1,8 @@
 //! Points with one coordinate in a file that writes both: the letter of the other one is lost.
 //!
 //! A block with X alone keeps the last Y. Files that use this omit every coordinate that does not change; files that repeat one
-//! from block to block never do. `X0Y2000` without its Y is `X02000`, a sound block that leads elsewhere.
+//! from block to block never do. `X0Y2000` without its Y is `X02000`, a sound block that leads elsewhere. A last block without
+//! its asterisk has lost more than a letter: the file is cut short there.
 
 use super::block::Blocks;
 use super::meaning::{Meaning, meaning};
@@ -11,12 +12,14 @@ use crate::source::Span;
 
 /// Least number of repeated coordinates for each omitted one, if several are omitted: a transfer loses few letters.
 const FEW: usize = 10;
+const LOST_LETTER: &str = "the letter of the other coordinate may be lost; transfer the file again";
 
 /// Points with one coordinate.
 #[derive(Debug, Default)]
 pub(super) struct Alone {
     count: usize,
     first: Option<(char, Span)>,
+    last: Option<Span>,
 }
 
 impl Alone {
@@ -29,16 +32,27 @@ impl Alone {
         };
         self.count += 1;
         self.first.get_or_insert((letter, span));
+        self.last = Some(span);
     }
 
-    /// Reports the points if they are few, and the file repeats coordinates otherwise.
-    pub(super) fn report(&self, bytes: &[u8], out: &mut Diagnostics) {
-        let are_few = |repeats: usize| repeats > self.count && (self.count == 1 || repeats >= FEW * self.count);
-        let Some((letter, span)) = self.first.filter(|_| are_few(repeats(bytes))) else { return };
-        let blocks = if self.count == 1 { "one block".to_owned() } else { format!("one of {} blocks", self.count) };
+    /// Reports the points if they are few, and the file repeats coordinates otherwise. `torn` is the last block of the file if it
+    /// lacks its asterisk.
+    pub(super) fn report(&self, bytes: &[u8], torn: Option<Span>, out: &mut Diagnostics) {
+        let Some((letter, first)) = self.first else { return };
+        let is_torn = torn.is_some() && torn == self.last;
+        let count = self.count - usize::from(is_torn);
+        let are_few = |repeats: usize| repeats > count && (count <= 1 || repeats >= FEW * count);
+        let is_known = is_torn && out.iter().any(|finding| finding.code == &code::ISO_ENDS_KNIFE_DOWN);
+        if count == 0 && is_known || !are_few(repeats(bytes)) {
+            return;
+        }
+        let (blocks, hint) = match count {
+            0 => ("the file ends".to_owned(), "the file is most likely cut short; export it again"),
+            1 => ("one block".to_owned(), LOST_LETTER),
+            _ => (format!("one of {count} blocks"), LOST_LETTER),
+        };
         let message = format!("{blocks} with {letter} alone, where others repeat an unchanged coordinate");
-        let finding = Diagnostic::new(&code::ISO_ALONE, message).at(span);
-        out.push(finding.hint("the letter of the other coordinate may be lost; transfer the file again"));
+        out.push(Diagnostic::new(&code::ISO_ALONE, message).at(first).hint(hint));
     }
 }
 

@@ -112,6 +112,11 @@ impl<'a> Blocks<'a> {
         self.ended
     }
 
+    /// The last block if it lacks its asterisk.
+    pub(super) fn torn(&self, last: Span) -> Option<Span> {
+        (!self.ended).then_some(last)
+    }
+
     /// The next block; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Option<Block> {
         if let Some((code, span)) = self.next_code() {

@@ -208,7 +208,7 @@ impl Lowering<'_> {
             self.tally.ignore(code, "bite size", span);
         }
         self.tally.report(self.out);
-        self.alone.report(self.source.bytes(), self.out);
+        self.alone.report(self.source.bytes(), self.blocks.torn(last), self.out);
         let found = [decimal::finding(&self.decimals, self.source.bytes()), self.twice.finding()];
         found.into_iter().flatten().for_each(|finding| self.out.push(finding));
         if marker.pieces.is_empty() && !self.out.has_errors() {
