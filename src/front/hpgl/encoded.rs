@@ -85,6 +85,11 @@ impl<'a> Body<'a> {
         self.mode.bits
     }
 
+    /// True if its semicolon is all that was read.
+    pub(super) fn is_empty(&self) -> bool {
+        self.ending == Ending::Done && self.at == self.start + 1
+    }
+
     /// The next item; `None` at the end, and then [`Body::ending`] tells the kind of end.
     pub(super) fn next(&mut self) -> Option<Item> {
         loop {

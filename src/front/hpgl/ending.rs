@@ -96,6 +96,12 @@ impl AirMoves {
         self.places.clear();
     }
 
+    /// Ends a row, and begins another one at its last place: an outline that begins there ends there, too.
+    pub(super) fn settle_at(&mut self, at: [f64; 2]) {
+        self.places.clear();
+        self.places.push(at);
+    }
+
     /// The finding on the rows.
     pub(super) fn finding(&self) -> Option<Diagnostic> {
         self.rows.first?;

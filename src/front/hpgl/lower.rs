@@ -8,6 +8,7 @@ use super::ending::{self, Last};
 use super::instruction::{Instruction, serves_place};
 use super::lost;
 use super::page::{End, Pages};
+use super::parameters::Amid;
 use super::plotter::{MOST_PENS, NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
@@ -86,9 +87,15 @@ impl Lowering<'_> {
             if let Statement::Instruction(instruction, mnemonic) = statement {
                 self.last = Some((instruction, span));
                 if !instruction.is_move() {
-                    self.tally.surplus.see(mnemonic, span, &self.reader);
-                }
-                if instruction == Instruction::Down || !instruction.is_move() && serves_place(mnemonic) {
+                    let amid = Amid {
+                        stroke: self.plotter.is_amid_stroke(),
+                        page: self.plotter.is_drawing() || self.pages.goes_on(self.plotter.drawing.strokes.len()),
+                    };
+                    self.tally.surplus.see(mnemonic, span, amid, &self.reader);
+                    if serves_place(mnemonic) {
+                        self.tally.air.settle_at(self.plotter.at());
+                    }
+                } else if instruction == Instruction::Down {
                     self.tally.air.settle();
                 }
             }
@@ -163,7 +170,9 @@ impl Lowering<'_> {
         match instruction {
             Instruction::Down => {
                 self.plotter.lower();
-                self.moves();
+                if self.moves() == 0 {
+                    self.tally.air.settle_at(self.plotter.at());
+                }
             }
             Instruction::Up => {
                 self.plotter.lift();
@@ -224,13 +233,16 @@ impl Lowering<'_> {
             Instruction::Label => self.label(span),
             Instruction::Terminator => self.reader.define_terminator(),
             Instruction::Buffer => self.buffer = Some(self.text(span)).filter(|text| text.start < text.end),
-            Instruction::PrintBuffer => {
-                if let Some(text) = self.buffer {
-                    self.write(text);
-                }
-            }
+            Instruction::PrintBuffer => match self.buffer {
+                Some(text) => self.write(text),
+                None => self.plotter.tear(span),
+            },
             Instruction::Display => {
+                let has_numbers = self.reader.number_follows();
                 if self.reader.display() {
+                    if has_numbers {
+                        self.plotter.lose(span);
+                    }
                     self.tally.open_label(span);
                 }
             }
@@ -313,13 +325,18 @@ impl Lowering<'_> {
         loop {
             match self.reader.pair() {
                 Next::Some(pair) => return Some(pair),
-                Next::Pointed((pair, span)) => {
+                Next::Unusual((pair, span)) => {
                     if self.plotter.is_drawing() {
-                        self.tally.decimals.see(self.reader.slice(span), span);
+                        self.tally.unusual(self.reader.slice(span), span);
                     }
                     return Some((pair, span));
                 }
-                Next::End => return None,
+                Next::End => {
+                    if let Some(span) = self.reader.end_of_list() {
+                        self.tally.ends.add(span);
+                    }
+                    return None;
+                }
                 Next::Gap(span) => self.tally.gap(span),
                 Next::Odd(span) => self.odd(span),
                 Next::Overflow(span) => self.tally.overflow(span),
@@ -357,6 +374,9 @@ impl Lowering<'_> {
     /// The places after PU, PD, PA and PR; returns their number.
     fn moves(&mut self) -> usize {
         let mut places = 0;
+        if let Some(span) = self.reader.comma() {
+            self.tally.comma(span);
+        }
         while let Some((pair, span)) = self.pair() {
             let to = self.plotter.target(pair);
             let outcome = self.plotter.lead(to, span);
@@ -495,6 +515,9 @@ impl Lowering<'_> {
                 self.out.push(finding.at(span).hint("the file may be cut short; compare its size with the original"));
             }
             Ending::Done | Ending::More | Ending::Next => {}
+        }
+        if body.is_empty() {
+            self.plotter.tear(span); // a PD with a changed letter
         }
         if body.repaired {
             self.tally.repaired(span);

@@ -43,6 +43,11 @@ impl Pages {
         }
     }
 
+    /// True if something was drawn since the last end; `drawn` is the number of strokes so far.
+    pub(super) fn goes_on(&self, drawn: usize) -> bool {
+        drawn > self.ends.last().map_or(0, |end| end.drawn)
+    }
+
     /// Reports the first end of each kind with drawing after it.
     pub(super) fn report(&self, drawing: &Drawing, out: &mut Diagnostics) {
         let drawn = drawing.strokes.len();

@@ -121,17 +121,29 @@ const ROWS: &[Arity] = &[
     Arity { mnemonic: b"YT", about: "a tick", most: 0 },
 ];
 
-/// Instructions with more numbers than they take, and widths of pens that no plotter has.
+/// Place of an instruction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Amid {
+    /// True amid a stroke that the pen draws.
+    pub(super) stroke: bool,
+    /// True on a page on which something was drawn.
+    pub(super) page: bool,
+}
+
+/// Instructions with more numbers than they take, or with those of a place.
 #[derive(Debug, Default)]
 pub(super) struct Surplus {
     count: Count,
     first: Option<(&'static Arity, usize)>,
     pens: Count,
+    /// Instructions with pairs of numbers that they cannot have.
+    places: Count,
+    first_place: Option<&'static Arity>,
 }
 
 impl Surplus {
     /// Counts the numbers that follow an instruction.
-    pub(super) fn see(&mut self, mnemonic: [u8; 2], span: Span, reader: &Reader<'_>) {
+    pub(super) fn see(&mut self, mnemonic: [u8; 2], span: Span, amid: Amid, reader: &Reader<'_>) {
         if let [b'P', b'U' | b'D' | b'A' | b'R'] = mnemonic {
             return; // nearly all: moves, without a limit
         }
@@ -143,6 +155,9 @@ impl Surplus {
             self.first.get_or_insert((arity, numbers));
         } else if mnemonic == *b"PW" && reader.second_ahead().is_some_and(|pen| pen > MOST_PENS) {
             self.pens.add(span);
+        } else if numbers > 0 && numbers.is_multiple_of(2) && arity.may_be_place(amid, &reader.first_ahead()) {
+            self.places.add(span);
+            self.first_place.get_or_insert(arity);
         }
     }
 
@@ -160,11 +175,46 @@ impl Surplus {
             let message = format!("PW names a pen that no plotter has; this happens {}", self.pens.times());
             arity.hint(self.pens.diagnostic(&code::HPGL_NUMBERS, message))
         });
-        surplus.into_iter().chain(pens)
+        let places = self.first_place.map(|arity| {
+            let message = format!(
+                "{} has numbers that only a place can have; this happens {}",
+                arity.name(),
+                self.places.times()
+            );
+            arity.hint(self.places.diagnostic(&code::HPGL_NUMBERS, message))
+        });
+        surplus.into_iter().chain(pens).chain(places)
     }
 }
 
+/// Greatest number of a kind of lines (LA), of a kind of letters (AD, SD), of a set of letters (CA), of a part of a colour (PC)
+/// and of a size in per cent (SR). (The same references.)
+const MOST_KINDS_OF_LINES: f64 = 3.0;
+const MOST_KINDS_OF_LETTERS: f64 = 9.0;
+const MOST_SETS: f64 = 99.0;
+const MOST_COLOURS: f64 = 255.0;
+const MOST_PERCENT: f64 = 1000.0;
+/// Number of numbers of CR: a range for each of three colours.
+const NUMBERS_OF_COLOURS: usize = 6;
+
 impl Arity {
+    /// True if its pairs of numbers can only be places: it is a move with a changed letter.
+    fn may_be_place(&self, amid: Amid, numbers: &[f64]) -> bool {
+        let is_beyond = |most: f64| numbers.iter().any(|number| number.abs() > most);
+        let has_kind_beyond = |most: f64| numbers.iter().step_by(2).any(|kind| !(0.0..=most).contains(kind));
+        match self.mnemonic {
+            b"AD" | b"SD" => has_kind_beyond(MOST_KINDS_OF_LETTERS),
+            b"LA" => has_kind_beyond(MOST_KINDS_OF_LINES),
+            b"CA" => has_kind_beyond(MOST_SETS),
+            b"CR" => numbers.len() != NUMBERS_OF_COLOURS,
+            b"PC" => amid.stroke || is_beyond(MOST_COLOURS),
+            b"SR" => amid.stroke || is_beyond(MOST_PERCENT),
+            b"PS" => amid.page,
+            b"DR" | b"EA" | b"ER" => amid.stroke,
+            _ => false,
+        }
+    }
+
     fn name(&self) -> String {
         String::from_utf8_lossy(self.mnemonic).into_owned()
     }

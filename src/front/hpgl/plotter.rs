@@ -222,6 +222,11 @@ impl Plotter {
         self.is_down
     }
 
+    /// True amid a stroke: the pen is down, has drawn, and is not back at the start of the stroke.
+    pub(super) fn is_amid_stroke(&self) -> bool {
+        self.is_down && !self.drawing.is_lifted() && !self.drawing.is_closed()
+    }
+
     /// True if it is on an axis, where programs park the pen.
     pub(super) fn is_parked(&self) -> bool {
         self.at.contains(&0.0)
@@ -353,14 +358,14 @@ impl Plotter {
         Ok(())
     }
 
-    /// Place of the last corner of a polygon that PM is still gathering, or that another one replaced; `None` without edges.
+    /// Place of the last corner of a polygon that PM is still gathering, or that another one replaced; `None` without corners.
     pub(super) fn unfinished(&self) -> Option<Span> {
         if self.abandoned.is_some() {
             return self.abandoned;
         }
         self.gathering?;
-        let last = self.polygon.iter().rfind(|corner| corner.is_edge)?;
-        Some(last.span)
+        let (_, corners) = self.polygon.split_first()?;
+        corners.last().map(|last| last.span)
     }
 
     /// PM 2: the polygon is complete.

@@ -28,8 +28,8 @@ pub(super) enum Next<T> {
     Some(T),
     /// End of the list.
     End,
-    /// A value with a decimal point.
-    Pointed(T),
+    /// A value that is not written as digits and a comma alone: with a decimal point, a blank or a plus sign.
+    Unusual(T),
     /// A value before which a number is missing: two commas follow each other.
     Gap(Span),
     /// An unpaired number.
@@ -63,6 +63,8 @@ pub(super) struct Reader<'a> {
     language: Option<Span>,
 }
 
+/// Number of numbers after an instruction that are looked at.
+const MOST_AHEAD: usize = 22;
 /// Least number of numbers that make an outline.
 const NUMBERS_OF_A_LINE: usize = 6;
 /// First byte of the sequences of [`super::escape`].
@@ -209,15 +211,15 @@ impl<'a> Reader<'a> {
             let span = self.span(start);
             return if has_gap {
                 Next::Gap(span)
-            } else if memchr::memchr(b'.', self.slice(span)).is_some() {
-                Next::Pointed((pair, span))
+            } else if self.slice(span).iter().any(|byte| b". \t+".contains(byte)) {
+                Next::Unusual((pair, span))
             } else {
                 Next::Some((pair, span))
             };
         }
         let start = self.at;
         match self.value() {
-            Next::Some(_) | Next::Pointed(_) => match self.value() {
+            Next::Some(_) | Next::Unusual(_) => match self.value() {
                 Next::Overflow(span) => Next::Overflow(span),
                 _ => Next::Odd(self.span(start)),
             },
@@ -230,6 +232,24 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A comma that is next, and its place.
+    pub(super) fn comma(&mut self) -> Option<Span> {
+        let start = self.at;
+        (self.bytes.get(start) == Some(&b',')).then(|| {
+            self.at += 1;
+            self.span(start)
+        })
+    }
+
+    /// The comma behind the last number, or the blank before its semicolon, and its place.
+    pub(super) fn end_of_list(&mut self) -> Option<Span> {
+        let start = self.at;
+        matches!(self.bytes[start..], [b',', ..] | [b' ' | b'\t', b';', ..]).then(|| {
+            self.at += 1;
+            self.span(start)
+        })
+    }
+
     /// The bytes of a span.
     pub(super) fn slice(&self, span: Span) -> &'a [u8] {
         &self.bytes[span.start as usize..span.end as usize]
@@ -240,7 +260,7 @@ impl<'a> Reader<'a> {
         let mut values = arrayvec::ArrayVec::new();
         while !values.is_full() {
             match self.value() {
-                Next::Some(value) | Next::Pointed(value) => values.push(value),
+                Next::Some(value) | Next::Unusual(value) => values.push(value),
                 Next::Overflow(span) => return Err(span),
                 Next::End | Next::Odd(_) | Next::Gap(_) => break,
             }
@@ -319,6 +339,18 @@ impl<'a> Reader<'a> {
             (rest, count) = (after, count + 1);
         }
         count
+    }
+
+    /// The numbers that are next, up to as many as an instruction with a limited number of them takes.
+    pub(super) fn first_ahead(&self) -> arrayvec::ArrayVec<f64, MOST_AHEAD> {
+        let (mut rest, mut numbers) = (&self.bytes[self.at..], arrayvec::ArrayVec::new());
+        while !numbers.is_full()
+            && let Ok((after, number)) = syntax::parameter(rest)
+        {
+            numbers.push(number);
+            rest = after;
+        }
+        numbers
     }
 
     /// The second of the numbers that are next.
@@ -411,7 +443,7 @@ impl<'a> Reader<'a> {
             Tail::Values => self.texts_among_values(),
             Tail::Numbers => loop {
                 match self.value() {
-                    Next::Some(_) | Next::Pointed(_) => {}
+                    Next::Some(_) | Next::Unusual(_) => {}
                     Next::Overflow(span) => return Some(Flaw::Overflow(span)),
                     Next::End | Next::Odd(_) | Next::Gap(_) => return None,
                 }

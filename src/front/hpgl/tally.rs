@@ -17,6 +17,11 @@ const MOST_NAMES: usize = 40;
 /// Maximum number of mnemonics named in a message.
 const SHOWN_NAMES: usize = 8;
 
+/// Least number of plain places, or of instructions, for each one with a separator of its own.
+const FEW_PLAIN: usize = 5;
+/// Least number of instructions for each comma before their numbers.
+const FEW_COMMAS: usize = 10;
+
 /// Counts of ignored and faulty statements.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
@@ -43,8 +48,14 @@ pub(super) struct Tally {
     open_labels: Count,
     /// Places in lists of which a number is missing.
     gaps: Count,
+    /// Commas before the first number of a list of places.
+    commas: Count,
+    /// Places of lines with a blank or a plus sign.
+    lone: Count,
+    /// Lists of places with a comma or a blank behind the last number.
+    pub(super) ends: Count,
     pub(super) surplus: Surplus,
-    pub(super) decimals: Decimals,
+    decimals: Decimals,
     /// Number of places that the pen draws to, by their numbers in the file.
     pub(super) places: usize,
     pub(super) air: AirMoves,
@@ -70,6 +81,19 @@ impl Tally {
     /// Counts a place before which a number is missing.
     pub(super) fn gap(&mut self, span: Span) {
         self.gaps.add(span);
+    }
+
+    /// Counts a comma before the first number of a list of places.
+    pub(super) fn comma(&mut self, span: Span) {
+        self.commas.add(span);
+    }
+
+    /// Records a place of a line that is not written as digits and a comma alone. A line break parts numbers of any program.
+    pub(super) fn unusual(&mut self, text: &[u8], span: Span) {
+        self.decimals.see(text, span);
+        if text.iter().any(|byte| b" \t+".contains(byte)) && !text.contains(&b'\n') {
+            self.lone.add(span);
+        }
     }
 
     /// Counts an unknown instruction.
@@ -144,6 +168,7 @@ impl Tally {
         self.say_of_places(&mut found);
         found.extend(self.surplus.findings());
         let whole = self.places.saturating_sub(self.decimals.count());
+        found.extend(self.lone_separator());
         found.extend(self.decimals.finding(&code::HPGL_LOST, &code::HPGL_LONE_POINT, |least| whole >= least));
         found.extend(self.air.finding());
         self.say_of_statements(&mut found);
@@ -185,6 +210,12 @@ impl Tally {
             let finding = self.gaps.diagnostic(&code::HPGL_LOST, message);
             found.push(finding.hint("transfer the file again; a digit has become a comma, or a number is lost"));
         }
+        // Where many lists have such a comma, a program writes them so.
+        if self.commas.count == 1 || (1..=self.sound / FEW_COMMAS).contains(&self.commas.count) {
+            let message = format!("a comma stands before the first number; this happens {}", self.commas.times());
+            let finding = self.commas.diagnostic(&code::HPGL_LOST, message);
+            found.push(finding.hint("transfer the file again; a digit has become a comma, or a number is lost"));
+        }
         if self.adrift.count > 0 {
             let message = format!(
                 "a line is drawn from where a text has left the pen, which only the plotter knows; this happens {}",
@@ -193,6 +224,21 @@ impl Tally {
             let finding = self.adrift.diagnostic(&code::HPGL_PLACE_UNKNOWN, message);
             found.push(finding.hint("look at the picture (-t svg): it may lie beside its place"));
         }
+    }
+
+    /// The finding on places with a blank, a plus sign or a comma where nearly all have none.
+    fn lone_separator(&self) -> Option<Diagnostic> {
+        let few = |count: usize, among: usize| if among >= FEW_PLAIN * count { count } else { 0 };
+        let (inside, ends) = (self.lone, self.ends);
+        let counts = [
+            (few(inside.count, self.places.saturating_sub(inside.count)), inside.first),
+            (few(ends.count, self.sound), ends.first),
+        ];
+        let first = counts.iter().filter(|(count, _)| *count > 0).filter_map(|(_, first)| *first).min();
+        let lone = Count { count: counts[0].0 + counts[1].0, first: Some(first?) };
+        let message = format!("a blank, a comma or a plus sign is beside a number; this happens {}", lone.times());
+        let finding = lone.diagnostic(&code::HPGL_LONE_SEPARATOR, message);
+        Some(finding.hint("if a digit has become one, a cut leads elsewhere: see it in the picture (-t svg)"))
     }
 
     /// Findings on statements: junk, damaged, unknown and ignored ones.

@@ -7,6 +7,7 @@ use cutc::pipeline;
 
 use super::closing::areas;
 use super::{as_read, outlines, read, rectangle, source};
+use crate::ONE_IN;
 
 /// The same outlines in the spellings of several drivers.
 const PLOTS: [&str; 5] = [
@@ -33,6 +34,9 @@ fn a_character_that_is_lost_is_an_error_or_changes_nothing() {
             if !byte.is_ascii_digit() && byte != b'-' {
                 damaged.push(format!("{before}{behind}"));
             }
+            if byte.is_ascii_digit() && !plot.contains(' ') {
+                damaged.push(format!("{before},{behind}"));
+            }
             if byte == b',' {
                 damaged.extend([
                     format!("{before},,{behind}"),
@@ -43,7 +47,7 @@ fn a_character_that_is_lost_is_an_error_or_changes_nothing() {
             for text in damaged {
                 let mut found = Diagnostics::default();
                 let read = pipeline::read(&source(text.as_str()), by_name("hpgl"), &job, &mut found);
-                let is_refused = found.has_errors();
+                let is_refused = found.has_errors() || found.iter().any(|told| told.code.name == "hpgl/lone-separator");
                 let is_same = read.is_some_and(|_| outlines(&as_read(&source(text.as_str()), &job)) == whole);
                 refused += usize::from(is_refused);
                 same += usize::from(is_same);
@@ -60,6 +64,60 @@ fn a_character_that_is_lost_is_an_error_or_changes_nothing() {
         silent.len(),
         &silent[..silent.len().min(8)]
     );
+}
+
+#[test]
+fn a_letter_or_a_digit_that_changed_is_told_or_changes_nothing() {
+    let job = Job::default();
+    let mut silent = Vec::new();
+    let mut told = 0;
+    for plot in &PLOTS[..3] {
+        let whole = outlines(&as_read(&source(*plot), &job));
+        for at in (plot.find("PU").expect("a move")..plot.len()).step_by(ONE_IN) {
+            let byte = plot.as_bytes()[at];
+            // PR instead of PA is another sound move.
+            let others = match byte {
+                b'A' => "BCDEFGHIJKLMNOPQSTUVWXYZ",
+                byte if byte.is_ascii_alphabetic() => "ABCDEFGHIJKLMNOPQRSTUVWXYZ",
+                byte if byte.is_ascii_digit() => " ",
+                _ => "",
+            };
+            for other in others.chars() {
+                let text = format!("{}{other}{}", &plot[..at], &plot[at + 1..]);
+                let mut found = Diagnostics::default();
+                let read = pipeline::read(&source(text.as_str()), by_name("hpgl"), &job, &mut found);
+                told += usize::from(found.iter().next().is_some());
+                let is_same = || read.is_some() && outlines(&as_read(&source(text.as_str()), &job)) == whole;
+                if found.iter().next().is_none() && !is_same() {
+                    silent.push(text);
+                }
+            }
+        }
+    }
+    assert!(told * ONE_IN > 1500, "{told}");
+    assert!(
+        silent.is_empty(),
+        "{} outlines are others in silence: {:#?}",
+        silent.len(),
+        &silent[..silent.len().min(8)]
+    );
+}
+
+#[test]
+fn commas_and_blanks_that_a_program_writes_at_every_place_are_no_fault() {
+    let plot = PLOTS[0];
+    let whole = outlines(&read(&source(plot), &Job::default()).0);
+    for (from, to) in [(",", " "), (",", " , "), ("PD", "PD "), ("PD", "PD,"), (";", ",;"), ("PD", "PD+")] {
+        let text = plot.replace(from, to).replace(",;PU,;", ";PU;");
+        let (marker, told) = read(&source(text.as_str()), &Job::default());
+        assert_eq!(told, [""; 0], "{text}");
+        assert_eq!(outlines(&marker), whole, "{text}");
+    }
+    let told = |text: String| read(&source(text), &Job::default()).1;
+    assert_eq!(told(plot.replace("PD9000,900", "PD9000 ,900")), ["hpgl/lone-separator"]);
+    assert_eq!(told(plot.replace("PD9000,900", "PD+000,900")), ["hpgl/lone-separator", "marker/overlapping-pieces"]);
+    assert_eq!(told(plot.replace("PD9000,900", "PD9000,90,")), ["hpgl/lone-separator"]);
+    assert_eq!(told(plot.replace("PD9000,900", "PD,9000,900")), ["hpgl/lost-place"]);
 }
 
 /// An outline and a slit in it, encoded.
@@ -271,9 +329,33 @@ fn instructions_with_more_numbers_than_they_take_are_errors() {
         assert!(is_refused(&format!("{mnemonic}{places};")), "{mnemonic}");
     }
     assert!(is_refused("PW8000,400;"));
-    for usual in
-        ["VS40,1;", "FS80,8;", "PW0.3,1;", "LT4,5,1;", "SP1;", "PC1,255,0,0;", "PS41000,36000;", "ZZ1,2,3,4,5,6;"]
+    for changed in
+        ["PC8000,400;", "AD8000,400;", "SD8000,400;", "LA8000,400;", "CA8000,400;", "CR8000,400;", "SR8000,400;"]
     {
+        assert!(is_refused(changed), "{changed}");
+    }
+    for amid in ["PS", "PC", "DR", "EA", "ER", "SR"] {
+        let line = format!("PU20000,0;PD28000,0;PD28000,8000;{amid}20000,8000;PD20000,0;");
+        let plot = format!("IN;SP1;{}{line}PU;SP0;", rectangle(0, 0, 8000, 8000));
+        let told = read(&source(plot.as_str()), &Job::default()).1;
+        assert!(told.contains(&"hpgl/too-many-numbers"), "{plot} {told:?}");
+    }
+    for usual in [
+        "VS40,1;",
+        "FS80,8;",
+        "PW0.3,1;",
+        "LT4,5,1;",
+        "SP1;",
+        "PC1,255,0,0;",
+        "PS41000,36000;",
+        "ZZ1,2,3,4,5,6;",
+        "LA1,4,2,4;",
+        "AD1,21,2,1,4,12,7,52;",
+        "SD1,277,2,1,4,14,5,0,6,0,7,4148;",
+        "CA5;",
+        "SR0.75,1.5;",
+        "DR1,0;",
+    ] {
         assert!(!is_refused(usual), "{usual}");
     }
 }
