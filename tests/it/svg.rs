@@ -363,3 +363,38 @@ fn bytes_of_other_kinds_are_told_by_their_names() {
     assert!(refusal("a.svgz", b"\x1f\x8b\x08\0").contains("a compressed SVG drawing (SVGZ)"));
     assert!(refusal("a.svg", b"<!DOCTYPE html><html><svg/></html>").contains("a web page"));
 }
+
+#[test]
+fn what_is_transparent_is_not_cut_and_counted() {
+    let whole = "<path d='M20 20H280V380H20Z'/>";
+    let is_hidden = |inside: &str| {
+        let text = page(&format!("{whole}{inside}"));
+        let (marker, found) = read(&source(text.as_str()));
+        assert!(broken(&source(text.as_str()), &marker).is_empty(), "{inside}");
+        let told = found.iter().any(|finding| ["svg/hidden", "svg/no-line"].contains(&finding.code.name));
+        assert_eq!(told, marker.contours().count() == 1, "{inside}");
+        told
+    };
+    let hole = |attributes: &str| format!("<path {attributes} d='M40 40H100V100H40Z'/>");
+    for attributes in [
+        "opacity='0'",
+        "style='opacity:0%'",
+        "stroke-opacity='0'",
+        "stroke='#ff000000'",
+        "stroke='rgba(0,0,0,0)'",
+        "display='none'",
+        "visibility='hidden'",
+        "visibility='collapse'",
+    ] {
+        assert!(is_hidden(&hole(attributes)), "{attributes}");
+        let group = format!("<g {attributes}>{}</g>", hole(""));
+        assert!(is_hidden(&group), "{group}");
+    }
+    assert!(is_hidden(&format!("<g opacity='0'>{}</g>", hole("opacity='1'"))));
+    assert!(is_hidden(&format!("<g display='none'>{}</g>", hole("display='inline' visibility='visible'"))));
+    for seen in ["opacity='0.01'", "stroke-opacity='50%'", "stroke='#ff000001'", "fill='red' stroke-opacity='0'"] {
+        assert!(!is_hidden(&hole(seen)), "{seen}");
+    }
+    assert!(!is_hidden(&format!("<g visibility='hidden'>{}</g>", hole("visibility='visible'"))));
+    assert!(!is_hidden(&format!("<g stroke-opacity='0'>{}</g>", hole("stroke-opacity='1'"))));
+}

@@ -163,7 +163,7 @@ codes! {
     /// A size that no garment has.
     SVG_SIZE = warning(Spoils, Shape, "svg/size-doubtful", "An SVG drawing is smaller than any part, or wider than any table both ways.", "Its unit was most likely taken for another one. Set the size of the page in mm in the program that drew it, and save it again.");
     /// Hidden layers.
-    SVG_HIDDEN = warning(Spares, Text, "svg/hidden", "Elements of an SVG file are not displayed, and not cut; the message gives their count and first place.", "A hidden layer is not seen in the drawing, so it is not cut either. Show the layer if it must be cut.");
+    SVG_HIDDEN = warning(Spares, Text, "svg/hidden", "Shapes and texts of an SVG file are hidden or transparent, and not cut; the message gives their count and first place.", "What is not seen in the drawing is not cut: it is not displayed, not visible or has the opacity 0, itself or through a group around it. Show the layer if it must be cut.");
     /// Invisible shapes.
     SVG_NO_LINE = warning(Spares, Text, "svg/no-line", "Shapes of an SVG file have neither stroke nor fill, and are not cut; the message gives their count and first place.", "Nobody sees them: guides and boxes around texts are often so. Give them a stroke if they must be cut.");
     /// Kinds that are left out.

@@ -27,7 +27,7 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
         let name = node.tag_name().name();
         shape::check(node)?;
         if !scene.is_visible {
-            self.tally.hide(span);
+            self.tally.hide(1, span);
             return Ok(());
         }
         if !scene.has_stroke() && (!scene.has_fill() || name == "line") {
@@ -118,7 +118,7 @@ impl<'a, 'input> Walk<'a, 'input, '_> {
     /// Makes the labels of a text.
     pub(super) fn text(&mut self, text: Node<'a, 'input>, scene: Scene<'a>) {
         if !scene.is_visible {
-            self.tally.hide(self.span(text));
+            self.tally.hide(1, self.span(text));
             return;
         }
         let parts =

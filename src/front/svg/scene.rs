@@ -17,6 +17,9 @@ pub(super) struct Scene<'a> {
     pub(super) whole: Pair,
     stroke: &'a str,
     fill: &'a str,
+    /// True if lines, or areas, are wholly transparent.
+    has_clear_stroke: bool,
+    has_clear_fill: bool,
     pub(super) is_visible: bool,
     /// Names of the Inkscape layer and of the outermost named group.
     layer: Option<&'a str>,
@@ -35,6 +38,8 @@ impl<'a> Scene<'a> {
             whole,
             stroke: "none",
             fill: "black",
+            has_clear_stroke: false,
+            has_clear_fill: false,
             is_visible: true,
             layer: None,
             group: None,
@@ -47,9 +52,12 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub(super) fn styled(self, style: &Style<'a>) -> Self {
         let own = |property: usize| style[property].filter(|value| *value != "inherit");
+        let is_clear = |property: usize, inherited: bool| own(property).map_or(inherited, style::is_transparent);
         Self {
             stroke: own(style::STROKE).unwrap_or(self.stroke),
             fill: own(style::FILL).unwrap_or(self.fill),
+            has_clear_stroke: is_clear(style::STROKE_OPACITY, self.has_clear_stroke),
+            has_clear_fill: is_clear(style::FILL_OPACITY, self.has_clear_fill),
             is_visible: own(style::VISIBILITY).map_or(self.is_visible, |value| value == "visible"),
             depth: self.depth + 1,
             ..self
@@ -70,12 +78,12 @@ impl<'a> Scene<'a> {
 
     /// True if the stroke of a shape is visible.
     pub(super) fn has_stroke(&self) -> bool {
-        is_paint(self.stroke)
+        !self.has_clear_stroke && is_paint(self.stroke)
     }
 
     /// True if the fill of a shape is visible.
     pub(super) fn has_fill(&self) -> bool {
-        is_paint(self.fill)
+        !self.has_clear_fill && is_paint(self.fill)
     }
 
     /// Name of the layer of a shape, otherwise the colour of its stroke or fill.
@@ -92,5 +100,6 @@ impl<'a> Scene<'a> {
 }
 
 fn is_paint(paint: &str) -> bool {
-    !paint.eq_ignore_ascii_case("none") && !paint.eq_ignore_ascii_case("transparent")
+    let is_clear = || paint.parse::<Color>().is_ok_and(|colour| colour.alpha == 0);
+    !paint.eq_ignore_ascii_case("none") && !is_clear()
 }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use roxmltree::Node;
 
 /// Properties that matter.
-pub(super) const PROPERTIES: [&str; 24] = [
+pub(super) const PROPERTIES: [&str; 27] = [
     "display",
     "visibility",
     "stroke",
@@ -19,6 +19,9 @@ pub(super) const PROPERTIES: [&str; 24] = [
     "marker-start",
     "marker-mid",
     "marker-end",
+    "opacity",
+    "stroke-opacity",
+    "fill-opacity",
     "transform",
     "d",
     "transform-origin",
@@ -42,9 +45,12 @@ pub(super) const FILL: usize = 3;
 pub(super) const CLIP_PATH: usize = 4;
 pub(super) const MASK: usize = 5;
 pub(super) const MARKERS: std::ops::Range<usize> = 6..10;
+pub(super) const OPACITY: usize = 10;
+pub(super) const STROKE_OPACITY: usize = 11;
+pub(super) const FILL_OPACITY: usize = 12;
 /// Properties that move or shape lines: attributes of these names are read elsewhere, styles of these names are not written in
 /// practice.
-const MOVING: std::ops::Range<usize> = 10..24;
+const MOVING: std::ops::Range<usize> = 13..27;
 
 /// Values of an element's own properties.
 pub(super) type Style<'a> = [Option<&'a str>; PROPERTIES.len()];
@@ -165,6 +171,16 @@ impl<'a> Sheets<'a> {
 /// Property of a style that moves or shapes an element; `None` if there is none or it has no effect.
 pub(super) fn moving(style: &Style) -> Option<&'static str> {
     MOVING.into_iter().find(|&at| style[at].is_some_and(|value| value != "none")).map(|at| PROPERTIES[at])
+}
+
+/// True if nothing of an element is seen, with all that it holds: it is not displayed, or wholly transparent.
+pub(super) fn is_unseen(style: &Style) -> bool {
+    style[DISPLAY] == Some("none") || style[OPACITY].is_some_and(is_transparent)
+}
+
+/// True for an opacity of 0 or less.
+pub(super) fn is_transparent(opacity: &str) -> bool {
+    opacity.trim_end_matches('%').trim().parse().is_ok_and(|opacity: f64| opacity <= 0.0)
 }
 
 impl<'a> Selector<'a> {
@@ -301,10 +317,9 @@ mod tests {
     #[test]
     fn strange_selectors_are_kept_to_be_told() {
         let mut sheets = Sheets::default();
-        sheets.add(
-            "g path{fill:red} a:hover{fill:red} [x]{stroke:red} b>c{opacity:1} @import url(x); @media all{a{}} d{}",
-        );
-        assert_eq!(sheets.strange, ["g path", "a:hover", "[x]", "@import url(x)", "@media all"]);
+        sheets
+            .add("g path{fill:red} a:hover{fill:red} [x]{stroke:red} b>c{zoom:1} @import url(x); @media all{a{}} d{}");
+        assert_eq!(sheets.strange, ["g path", "a:hover", "[x]", "b>c", "@import url(x)", "@media all"]);
     }
 
     #[test]

@@ -25,12 +25,14 @@ fn many(count: usize, one: &str, several: &str) -> String {
 }
 
 impl Tally {
-    /// Counts an element that is not displayed.
-    pub(super) fn hide(&mut self, span: Span) {
-        count(&mut self.hidden, span);
+    /// Counts shapes that are not seen.
+    pub(super) fn hide(&mut self, shapes: usize, span: Span) {
+        if shapes > 0 {
+            self.hidden.get_or_insert((0, span)).0 += shapes;
+        }
     }
 
-    /// Counts a shape with neither stroke nor fill.
+    /// Counts a shape without a stroke or a fill that is seen.
     pub(super) fn lack_line(&mut self, span: Span) {
         count(&mut self.without_line, span);
     }
@@ -53,8 +55,8 @@ impl Tally {
             });
         };
         if let Some((count, span)) = self.hidden {
-            let what = many(count, "element is", "elements are");
-            let message = format!("{what} not displayed, and so not cut");
+            let what = many(count, "shape or text is", "shapes and texts are");
+            let message = format!("{what} hidden or transparent, and so not cut");
             say(&code::SVG_HIDDEN, Some(span), message, "if it must be cut, show its layer and save the drawing again");
         }
         if let Some((count, span)) = self.without_line {

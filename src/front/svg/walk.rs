@@ -57,6 +57,8 @@ const SILENT: &[&str] = &[
     "solidColor",
     "hatch",
 ];
+/// Elements that draw lines or letters, or copy others that do.
+const DRAWN: &[&str] = &["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "use", "image"];
 /// Elements that change another one in time.
 const ANIMATIONS: &[&str] = &["animate", "animateColor", "animateMotion", "animateTransform", "set"];
 
@@ -124,8 +126,8 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
     pub(super) fn run(mut self, root: Node<'a, 'input>) -> Drawing {
         let style = self.sheets.of(root);
         let scene = Scene::of_page(self.page.map, self.page.whole).styled(&style);
-        if style[style::DISPLAY] == Some("none") {
-            self.tally.hide(self.span(root));
+        if style::is_unseen(&style) {
+            self.hide(root);
         } else {
             self.children(root, scene);
         }
@@ -164,8 +166,8 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
             return;
         }
         let style = self.sheets.of(node);
-        if style[style::DISPLAY] == Some("none") {
-            self.tally.hide(span);
+        if style::is_unseen(&style) {
+            self.hide(node);
             return;
         }
         if ANIMATIONS.contains(&name) {
@@ -213,6 +215,14 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
             }
         }
         Ok(())
+    }
+
+    /// Counts the shapes and texts of an element that is not seen.
+    fn hide(&mut self, node: Node<'a, 'input>) {
+        let is_drawn = |node: &Node| DRAWN.contains(&node.tag_name().name());
+        let count = node.descendants().filter(is_drawn).count();
+        self.elements += count;
+        self.tally.hide(count, self.span(node));
     }
 
     /// Reports styles that change what is visible and are not obeyed.
@@ -300,6 +310,10 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
             return Ok(());
         }
         let style = self.sheets.of(target);
+        if style[style::OPACITY].is_some_and(style::is_transparent) {
+            self.hide(target);
+            return Ok(());
+        }
         self.tell_style(&style, self.span(target));
         let mut inner = scene.styled(&style);
         if let Some(text) = target.attribute("transform") {

@@ -37,6 +37,8 @@ struct State {
     ruler: Ruler,
     stroke: String,
     fill: String,
+    /// True if strokes, and fills, are transparent.
+    clear: [bool; 2],
     is_seen: bool,
     /// Label of the Inkscape layer, and id of the outermost group with one.
     label: Option<String>,
@@ -51,11 +53,15 @@ impl State {
         if let Some(name) = self.label.as_ref().or(self.group.as_ref()) {
             return name.clone();
         }
-        let paint = if is_paint(&self.stroke) { &self.stroke } else { &self.fill };
+        let paint = if self.has_stroke() { &self.stroke } else { &self.fill };
         Color::from_str(paint).map_or_else(
             |_| paint.clone(),
             |colour| format!("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue),
         )
+    }
+
+    fn has_stroke(&self) -> bool {
+        !self.clear[0] && is_paint(&self.stroke)
     }
 
     /// Takes over the name of a group.
@@ -72,7 +78,14 @@ impl State {
 }
 
 fn is_paint(value: &str) -> bool {
-    !["none", "transparent"].contains(&value.to_lowercase().as_str())
+    let value = value.to_lowercase();
+    value != "none" && Color::from_str(&value).map_or(true, |colour| colour.alpha > 0)
+}
+
+/// True for an opacity that lets nothing be seen.
+fn is_nothing(opacity: &str) -> bool {
+    let number = opacity.strip_suffix('%').unwrap_or(opacity);
+    f64::from_str(number.trim()).is_ok_and(|number| number <= 0.0)
 }
 
 impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
@@ -97,6 +110,7 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
             ruler,
             stroke: "none".to_owned(),
             fill: "black".to_owned(),
+            clear: [false; 2],
             is_seen: true,
             label: None,
             group: None,
@@ -114,15 +128,22 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
         }
     }
 
-    /// State of an element; `None` if it is not displayed.
+    /// True if an element and all in it are transparent.
+    fn is_clear(&self, node: Node) -> bool {
+        self.rules.value(node, "opacity").is_some_and(|opacity| is_nothing(&opacity))
+    }
+
+    /// State of an element; `None` if nothing of it is seen.
     fn styled(&self, node: Node, state: &State) -> Option<State> {
-        if self.rules.value(node, "display").as_deref() == Some("none") {
+        if self.rules.value(node, "display").as_deref() == Some("none") || self.is_clear(node) {
             return None;
         }
         let value = |name: &str| self.rules.value(node, name).filter(|value| value != "inherit");
+        let clear = |name: &str, before: bool| value(name).map_or(before, |opacity| is_nothing(&opacity));
         Some(State {
             stroke: value("stroke").unwrap_or_else(|| state.stroke.clone()),
             fill: value("fill").unwrap_or_else(|| state.fill.clone()),
+            clear: [clear("stroke-opacity", state.clear[0]), clear("fill-opacity", state.clear[1])],
             is_seen: value("visibility").map_or(state.is_seen, |value| value == "visible"),
             depth: state.depth + 1,
             ..state.clone()
@@ -166,8 +187,8 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
 
     /// Draws a shape if it is visible; a `line` element has no area to fill.
     fn shape(&mut self, node: Node, state: &State) {
-        let has_area = is_paint(&state.fill) && node.tag_name().name() != "line";
-        if !state.is_seen || !is_paint(&state.stroke) && !has_area {
+        let has_area = !state.clear[1] && is_paint(&state.fill) && node.tag_name().name() != "line";
+        if !state.is_seen || !state.has_stroke() && !has_area {
             return;
         }
         let before = self.pen.drawn;
@@ -189,6 +210,9 @@ impl<'d, 'i, 'p> Walk<'d, 'i, 'p> {
             return;
         }
         if state.depth > MOST_DEPTH {
+            return;
+        }
+        if self.is_clear(target) {
             return;
         }
         // A symbol is displayed through its copies, regardless of its own properties.
