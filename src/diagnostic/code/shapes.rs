@@ -65,7 +65,7 @@ codes! {
     /// A damaged number.
     DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number, or a flag or count no whole one.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
     /// A place without X or Y.
-    DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
+    DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate, or has more of them than one of its kind.", "A place that is taken for 0 would pull the outline across the cloth. A coordinate that stands twice is that of another entity, whose first group is lost. Lines were lost on the way: export or transfer the file again.");
     /// A place that no table reaches.
     DXF_FAR_PLACE = error(Text, "dxf/far-place", "A place of a DXF file lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the number, and whether the file is really in inches.\n  cutc check pattern.dxf --set dxf.unit=mm");
     /// Curves without end.
@@ -174,6 +174,8 @@ codes! {
     DXF_ON_PAPER = warning(Spares, Text, "dxf/paper-space", "Entities of a DXF file stand in paper space (group 67 is 1) and are not cut.", "Paper space is the sheet on which a drawing is shown, with its frame and titles. If a piece is missing, it was drawn there: move it to model space.");
     /// Entities that are cut and not shown.
     DXF_HIDDEN = warning(Spoils, Shape, "dxf/hidden", "Entities of a DXF file on layers that are cut are not shown in the CAD system (group 60 is 1, or their layer is off or frozen); they are cut all the same.", "Somebody who looks at the drawing does not see these cuts. Show all layers, delete what is not meant, and export the file again; or look at the picture (-t svg).");
+    /// Layers that the convention does not have.
+    DXF_OTHER_LAYERS = warning(Spares, Text, "dxf/other-layers", "Points of a pattern are on layers that the convention does not have, or lines or points on none; they are not cut.", "AAMA and ASTM D6673 number the layers: 1 = outlines, 4 and 80 to 83 = notches, 13 = drill holes, and so on. A notch whose layer was lost or has another number is no notch. The message names the layers; look for what is missing in the picture (-t svg).");
     /// Kinds that are not read.
     DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
 

@@ -21,6 +21,9 @@ pub(in crate::front) const FLAGS: i32 = 70;
 pub(super) const X: i32 = 10;
 pub(super) const Y: i32 = 20;
 
+/// Codes that an entity of one point has once at most: its layer, its points, and a bulge or a scale.
+const SINGLE: [i32; 6] = [LAYER, X, Y, 11, 21, BULGE];
+
 /// Codes of the bulge of the arc to the next vertex, and of the vertex count of a light polyline.
 pub(in crate::front) const BULGE: i32 = 42;
 const COUNT: i32 = 90;
@@ -153,6 +156,39 @@ impl<'a> Entity<'a> {
     }
 }
 
+/// Kinds with at most one point of codes 10 and 20, one of codes 11 and 21, and one bulge or scale; and kinds without any.
+const OF_ONE_POINT: [&str; 9] = ["VERTEX", "LINE", "POINT", "CIRCLE", "ARC", "TEXT", "INSERT", "POLYLINE", "BLOCK"];
+const OF_NO_POINT: [&str; 2] = ["SEQEND", "ENDBLK"];
+
+impl Entity<'_> {
+    /// The finding on an entity with more layers or coordinates than one of its kind has: the group that begins the next entity is
+    /// lost, or the code of a group is changed.
+    fn merged(&self) -> Option<Diagnostic> {
+        let most = if OF_ONE_POINT.iter().any(|kind| self.is(kind)) {
+            1
+        } else if OF_NO_POINT.iter().any(|kind| self.is(kind)) {
+            0
+        } else {
+            return None;
+        };
+        let mut counts = [0; SINGLE.len()];
+        let surplus = self.groups().iter().find(|group| {
+            let place = SINGLE.iter().position(|code| *code == group.code);
+            place.is_some_and(|place| {
+                counts[place] += 1;
+                counts[place] > if group.code == LAYER { 1 } else { most }
+            })
+        })?;
+        let (kind, code) = (self.kind().escape_ascii(), surplus.code);
+        let message = match most {
+            0 if code != LAYER => format!("the {kind} has a group {code}, and no coordinates belong to it"),
+            _ => format!("the {kind} has group {code} twice"),
+        };
+        let finding = Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(surplus.value);
+        Some(finding.hint("a group was lost or changed on the way: export or transfer the file again"))
+    }
+}
+
 /// The point given by two codes, in units of the file.
 pub(super) fn place(entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
     Ok(Point::new(entity.coordinate(x)?, entity.coordinate(y)?))
@@ -215,7 +251,7 @@ impl Entity<'_> {
     /// The vertices of a light polyline, which are consecutive groups of one entity.
     pub(in crate::front) fn light_vertices(&self) -> Result<Vec<Bulged>, Diagnostic> {
         let mut vertices: Vec<Bulged> = Vec::new();
-        let mut x = None;
+        let (mut x, mut is_bulged) = (None, false);
         let lost = |span: Span| {
             let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
             Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
@@ -226,11 +262,17 @@ impl Entity<'_> {
                 (X, None) => x = Some((number()?, group.value)),
                 (Y, Some((first, span))) => {
                     vertices.push((Point::new(first, number()?), 0.0, span));
-                    x = None;
+                    (x, is_bulged) = (None, false);
+                }
+                (BULGE, None) if is_bulged => {
+                    let message = "a vertex of the LWPOLYLINE has two bulges (group 42)";
+                    let finding = Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(group.value);
+                    return Err(finding.hint("export the file again"));
                 }
                 (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
                 (BULGE, None) => {
                     let bulge = number()?;
+                    is_bulged = true;
                     vertices.last_mut().into_iter().for_each(|vertex| vertex.1 = bulge);
                 }
                 _ => {}
@@ -259,6 +301,7 @@ pub(in crate::front) fn sections<'a>(source: &'a Source, groups: &'a [Group], ou
     let mut within = Within::Others;
     let mut open: Option<Block> = None;
     for entity in entities(source, groups) {
+        entity.merged().into_iter().for_each(|finding| out.push(finding));
         let is_end = ["ENDBLK", "BLOCK", "ENDSEC", "SECTION", "EOF"].iter().any(|kind| entity.is(kind));
         if is_end && let Some(block) = open.take() {
             if !entity.is("ENDBLK") {

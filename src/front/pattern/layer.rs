@@ -134,6 +134,14 @@ pub(super) const LAYERS: [Layer; 20] = [
 pub(super) const OUTLINE: &Layer = &LAYERS[0];
 pub(super) const CUT_OUT: &Layer = &LAYERS[8];
 
+/// Layers of the convention for lines of the fabric, which nothing is made of, and one that it leaves free.
+const FREE: [u16; 3] = [9, 10, 12];
+
+/// True if the convention has no such layer, or an entity names none.
+pub(super) fn is_unknown(number: Option<u16>) -> bool {
+    layer(number).number == OTHER.number && number.is_none_or(|number| !FREE.contains(&number))
+}
+
 /// Entry for any other layer.
 pub(super) const OTHER: Layer =
     Layer { number: 0, name: "line of another layer", about: "any other layer", does: Does::Sign };

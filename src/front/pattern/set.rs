@@ -195,7 +195,7 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let Making { work, apart, .. } = making;
     set.apart = apart;
     say_unread(&set.unread, out);
-    say_unseen(on_paper, hidden, out);
+    say_unseen([on_paper, hidden], blocks, &asked, out);
     set.say(work.is_spent(), &asked, out);
     set
 }

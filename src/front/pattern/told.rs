@@ -4,11 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::choice::Asked;
 use super::curves::{CurveCount, CurveCounts, Drafting};
-use super::layer::Names;
+use super::layer::{Names, is_unknown};
 use super::piece::Piece;
 use super::shape::Unread;
 use crate::diagnostic::{Diagnostic, Diagnostics, PieceName, code};
+use crate::front::dxf::entity::{Block, Entity};
 use crate::source::Span;
+
+/// Kinds of lines.
+const LINES: [&str; 5] = ["LINE", "POLYLINE", "LWPOLYLINE", "ARC", "CIRCLE"];
 
 /// Maximum total length of names in a message, bytes.
 const SHOWN: usize = 50;
@@ -33,7 +37,7 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
             count if count == missed.pieces => ", cut along the chords of layer 1",
             _ => ", some cut along the chords of layer 1",
         };
-        let message = format!("layer 84 misses vertices of the outline and is not used: {}{along}", pieces(missed));
+        let message = format!("a line of {} misses vertices and is not used: {}{along}", missed.layers, pieces(missed));
         out.push(Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(missed.first).hint(compare));
     }
     if stray.pieces > 0 {
@@ -42,7 +46,7 @@ pub(super) fn say_curves(curved: &CurveCounts, drafting: &Drafting, out: &mut Di
         out.push(Diagnostic::new(&code::DXF_CURVE_MISSED, message).at(stray.first).hint(compare));
     }
     if fine.pieces > 0 {
-        let message = format!("cut along the curves of layer 84: {}, {}", pieces(fine), off(fine));
+        let message = format!("cut along the curves of {}: {}, {}", fine.layers, pieces(fine), off(fine));
         let finding = Diagnostic::new(&code::DXF_CURVED, message).at(fine.first);
         out.push(finding.hint("the file draws them so; `dxf.curves=points` cuts along the chords"));
     }
@@ -133,8 +137,32 @@ pub(super) fn say_unread(unread: &[Unread], out: &mut Diagnostics) {
     }
 }
 
-/// Warns of entities in paper space and of hidden cuts.
-pub(super) fn say_unseen(on_paper: Option<(usize, Span)>, hidden: Option<(usize, Span)>, out: &mut Diagnostics) {
+/// Reports points of pieces on layers that the convention does not have, and whatever is on no layer: it may be a notch.
+fn say_strange(blocks: &[Block], asked: &Asked, out: &mut Diagnostics) {
+    let is_strange = |entity: &&Entity| {
+        let is_nowhere = || entity.layer_bytes().is_empty() && LINES.iter().any(|kind| entity.is(kind));
+        entity.is("POINT") && is_unknown(entity.layer()) || is_nowhere()
+    };
+    let strange: Vec<&Entity> = blocks.iter().flat_map(|block| &block.entities).filter(is_strange).collect();
+    let Some(first) = strange.first() else { return };
+    let message = match strange.len() {
+        1 => "1 line or point of a piece is on no layer of the convention, and not cut".to_owned(),
+        count => format!("{count} lines and points of pieces are on no layer of the convention, and not cut"),
+    };
+    let names: BTreeSet<String> = strange.iter().map(|entity| entity.layer_name(&asked.letters)).collect();
+    let name = |name: String| if name.is_empty() { "none is named".to_owned() } else { name };
+    let finding = Diagnostic::new(&code::DXF_OTHER_LAYERS, message).at(first.span());
+    out.push(finding.hint(format!("their layers: {}", listed(names.into_iter().map(name)))));
+}
+
+/// Warns of entities in paper space, of hidden cuts, and of lines and points of blocks on no known layer.
+pub(super) fn say_unseen(
+    [on_paper, hidden]: [Option<(usize, Span)>; 2],
+    blocks: &[Block],
+    asked: &Asked,
+    out: &mut Diagnostics,
+) {
+    say_strange(blocks, asked, out);
     say_on_paper(on_paper, out);
     say_hidden(hidden, out);
 }

@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, Origin};
 use super::drafting::Drafting;
-use super::fine::{FineLine, Stretch};
+use super::fine::{FineLayers, FineLine, Stretch};
 use super::leg::Leg;
 use super::nodes::{Node, Nodes};
 use super::run::{Run, is_curve};
@@ -59,8 +59,12 @@ impl Curves {
             self.fine.iter().partition(|fine| Some(fine.layer) == usual);
         let count = coarse.line.vertices.len();
         let finer = own.iter().chain(&others).filter(|fine| fine.is_finer_than(count));
-        if let Some(legs) = finer.into_iter().find_map(|fine| fine.legs(&coarse.line, work)) {
-            return Curve::of(&coarse, legs, &vec![Origin::Fine; count]);
+        let legs_of = |fine: &&FineLine| Some((fine.layer, fine.legs(&coarse.line, work)?));
+        if let Some((layer, legs)) = finer.into_iter().find_map(legs_of) {
+            let layers = FineLayers::of(layer);
+            let mut curved = Curve::of(&coarse, legs, &vec![Origin::Fine; count]);
+            curved.layers = layers;
+            return curved;
         }
         let stretches = stretches(&own, &coarse.line, work);
         // Most vertices of a control polygon are not on the line. If few vertices are shared, the line itself is the fine one.
@@ -76,9 +80,10 @@ impl Curves {
             may_miss && !is_used(*k) && fine.lies_about(&coarse.line) && !fine.goes_along(&coarse.line, work)
         };
         let about = own.iter().enumerate().find(misses);
-        let missed = about.map(|(_, fine)| fine.span());
+        let missed = about.map(|(_, fine)| (fine.span(), FineLayers::of(fine.layer)));
         let laid = self.laid(&coarse.line, drafting, work).filter(|_| !is_fine_itself);
         let mut curved = drawn_in_part(&coarse, laid, stretches).unwrap_or_else(|| Curve::drawn(line));
+        curved.layers = own.first().map_or(FineLayers::default(), |fine| FineLayers::of(fine.layer));
         (curved.missed, curved.stray) = (missed, self.nodes.stray);
         curved
     }

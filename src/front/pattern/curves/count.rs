@@ -1,6 +1,7 @@
 //! Counts of pieces that are cut along curves, by the origin of the curves.
 
 use super::curve::Curve;
+use super::fine::FineLayers;
 use crate::source::Span;
 
 /// Counts of pieces that are cut along curves instead of the chords of their outlines.
@@ -23,6 +24,8 @@ pub(in crate::front::pattern) struct CurveCount {
     /// Largest distance of the curves from the chords, mm.
     pub(in crate::front::pattern) off: f64,
     pub(in crate::front::pattern) first: Span,
+    /// Layers of the fine lines.
+    pub(in crate::front::pattern) layers: FineLayers,
 }
 
 impl CurveCount {
@@ -32,6 +35,7 @@ impl CurveCount {
             self.first = if self.pieces == 0 { those.first } else { self.first };
             self.pieces += 1;
             self.off = self.off.max(those.off);
+            self.layers.join(those.layers);
         }
     }
 }
@@ -40,15 +44,16 @@ impl CurveCounts {
     /// Counts a line of a piece.
     pub(in crate::front::pattern) fn see(&mut self, curved: &Curve) {
         let first = curved.line.vertices.first().map_or(Span::default(), |vertex| vertex.span);
-        let count = |off: f64| CurveCount { pieces: 1, off, first };
-        if let Some(first) = curved.missed {
-            self.missed.add(CurveCount { pieces: 1, off: 0.0, first });
+        let layers = curved.layers;
+        let count = |off: f64| CurveCount { pieces: 1, off, first, layers };
+        if let Some((first, layers)) = curved.missed {
+            self.missed.add(CurveCount { pieces: 1, off: 0.0, first, layers });
             if curved.fine.is_none() && curved.laid.is_none() {
                 self.chords.add(count(0.0));
             }
         }
         if let Some(first) = curved.stray {
-            self.stray.add(CurveCount { pieces: 1, off: 0.0, first });
+            self.stray.add(CurveCount { pieces: 1, off: 0.0, first, layers });
         }
         curved.fine.into_iter().for_each(|off| self.fine.add(count(off)));
         curved.laid.into_iter().for_each(|off| self.laid.add(count(off)));

@@ -1,5 +1,6 @@
 //! The curve of a line, and the projection of points beside its chords onto the curve.
 
+use super::fine::FineLayers;
 use super::leg::Leg;
 use super::nodes::ON;
 use super::spikes::Base;
@@ -26,10 +27,12 @@ pub(in crate::front::pattern) struct Curve {
     pub(in crate::front::pattern) line: Chain,
     /// Largest distance of its fine lines from the chords of the coarse line, mm; `None` without fine lines.
     pub(super) fine: Option<f64>,
+    /// Layers of its fine lines.
+    pub(super) layers: FineLayers,
     /// Largest distance of the curves by a rule from the chords, mm; `None` without such curves.
     pub(super) laid: Option<f64>,
-    /// Start of a nearby fine line that misses some vertices of the line.
-    pub(super) missed: Option<Span>,
+    /// Start and layer of a nearby fine line that misses some vertices of the line.
+    pub(super) missed: Option<(Span, FineLayers)>,
     /// Curve point of the block that marks no vertex.
     pub(super) stray: Option<Span>,
     /// The coarse line, and the curve over each of its edges; empty for a line as drawn.
@@ -41,7 +44,8 @@ impl Curve {
     /// The line itself, for a line without curves.
     pub(super) fn drawn(line: &Chain) -> Self {
         let line = line.clone();
-        Self { line, fine: None, laid: None, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
+        let layers = FineLayers::default();
+        Self { line, fine: None, layers, laid: None, missed: None, stray: None, coarse: Vec::new(), legs: Vec::new() }
     }
 
     /// Curve over the edges of a coarse line, one leg and its origin per vertex; its spikes are restored.
@@ -66,7 +70,8 @@ impl Curve {
         let (fine, laid) = (off_of(Origin::Fine), off_of(Origin::Laid));
         coarse.put_back(&mut legs);
         let line = Chain { vertices: legs.concat(), is_closed: base.is_closed };
-        Self { line, fine, laid, missed: None, stray: None, coarse: round, legs: ways }
+        let layers = FineLayers::default();
+        Self { line, fine, layers, laid, missed: None, stray: None, coarse: round, legs: ways }
     }
 
     /// Projects a point beside a chord of the coarse line perpendicularly onto the curve. Points elsewhere, and points already

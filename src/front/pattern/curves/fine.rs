@@ -2,6 +2,8 @@
 //! geometry, because CAD systems pair the layers differently. Some systems write only the curved parts of a line: a [`Stretch`]
 //! is such a part, from one vertex of the line to another.
 
+use std::fmt;
+
 use super::leg::Leg;
 use super::nodes::ON;
 use crate::front::pattern::chain::Chain;
@@ -43,6 +45,33 @@ pub(super) struct Stretch {
     pub(super) first: usize,
     /// Legs from each of its vertices to the next.
     pub(super) legs: Vec<Leg>,
+}
+
+/// A set of the layers of fine lines: a bit for each, from [`FineLayers::FIRST`] upwards.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::front::pattern) struct FineLayers(u8);
+
+impl FineLayers {
+    const FIRST: u16 = 84;
+    const COUNT: u16 = 4;
+
+    /// The set of one layer.
+    pub(super) fn of(layer: u16) -> Self {
+        Self(1 << layer.saturating_sub(Self::FIRST).min(Self::COUNT - 1))
+    }
+
+    /// Adds the layers of another set.
+    pub(super) fn join(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+impl fmt::Display for FineLayers {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let layers = (0..Self::COUNT).filter(|bit| self.0 >> bit & 1 > 0).map(|bit| (Self::FIRST + bit).to_string());
+        let layers: Vec<String> = layers.collect();
+        write!(f, "layer{} {}", if layers.len() == 1 { "" } else { "s" }, layers.join(", "))
+    }
 }
 
 impl FineLine {
