@@ -372,10 +372,14 @@ pub(super) fn open_lines(sheet: &Sheet) -> Vec<usize> {
 
 /// Error about a rectangle that may be a frame or a part, if the user has not said whether the lines in it are cut.
 fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
-    let line = &sheet.lines[sheet.frame_doubt.filter(|_| job.lines.inner.is_none() && !job.lines.all)?];
+    if job.lines.inner.is_some() || job.lines.all {
+        return None;
+    }
+    let lone = sheet.frame_doubt.is_none().then(|| border(sheet, job)).flatten();
+    let line = &sheet.lines[sheet.frame_doubt.or(lone)?];
     let held = sheet.lines.iter().filter(|inner| inner.is_closed && !inner.is_cut && inner.size() > SMALL_OUTLINE);
     let held: Vec<&Line> = held.filter(|inner| line.extent.covers(&inner.extent)).collect();
-    if !line.is_cut || held.len() < DOUBTFUL {
+    if !line.is_cut || lone.is_none() && held.len() < DOUBTFUL {
         return None;
     }
     let (width, height) = line.extent.size();
@@ -389,6 +393,25 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     };
     let of_part = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
     Some(found.hint(of_frame).hint(of_part))
+}
+
+/// The largest rectangle that is taken for a part around a line with a seam line of its own: a border around one part looks so,
+/// and so does a part with a cut-out that is stitched around.
+fn border(sheet: &Sheet, job: &Job) -> Option<usize> {
+    if job.profile.hpgl.frame != Frame::Auto || !has_one_main_part(sheet) {
+        return None;
+    }
+    let around = |seam: usize| {
+        let inner = sheet.nest.parent(seam).filter(|_| sheet.lines[seam].class == Class::Seam)?;
+        let part = sheet.nest.parent(inner).filter(|_| sheet.lines[inner].class == Class::Inner)?;
+        let (part_line, inner) = (&sheet.lines[part], &sheet.lines[inner]);
+        let is_border = part_line.class == Class::Part
+            && part_line.is_rectangle(sheet.band())
+            && inner.area >= LEAST_SINGLE_FILL * part_line.area;
+        (is_border && !inner.is_cut && inner.usage != Use::Drawn).then_some(part)
+    };
+    let by_area = |a: &usize, b: &usize| sheet.lines[*a].area.total_cmp(&sheet.lines[*b].area).then(b.cmp(a));
+    (0..sheet.lines.len()).filter_map(around).max_by(by_area)
 }
 
 /// Closed lines outside the frames: the cloth is not there.

@@ -9,7 +9,7 @@ use cutc::pipeline;
 use cutc::verify::{DrawingCuts, drawing_audit};
 
 use super::closing::{areas, found};
-use super::{as_read, key, outlines, rectangle, source};
+use super::{as_read, key, outlines, read, rectangle, source};
 
 const FRAME: [i64; 4] = [0, 0, 40_000, 24_000];
 
@@ -150,4 +150,24 @@ fn a_frame_that_is_cut_and_a_title_block_that_is_cut_are_refused() {
     let every = Job { lines: Lines { all: true, ..Lines::default() }, ..Job::default() };
     assert!(is_refused(&as_read(&source, &every)));
     assert!(!is_refused(&as_read(&source, &Job::default())));
+}
+
+/// A border around one part has the seam line of the part in it; a part with a cut-out that is stitched around looks the same.
+#[test]
+fn a_rectangle_around_one_line_with_its_seam_line_is_refused_until_it_is_said_what_it_is() {
+    let told = |lines: &str, job: &Job| read(&source(format!("IN;SP1;{lines}PU;SP0;")), job).1;
+    let part = "PU4000,4000;PD14000,4000,14400,10000,12000,22000,4800,22000,4000,4000;";
+    let seam = "PU4400,4400;PD13600,4400,13900,10000,11600,21500,5200,21500,4400,4400;";
+    let all = format!("{}{part}{seam}", rectangle(0, 0, 20_000, 28_000));
+    assert_eq!(told(&all, &Job::default()), ["drawing/frame-or-part"]);
+    let mut job = Job::default();
+    job.profile.hpgl.frame = Frame::Outermost;
+    assert_eq!(told(&all, &job), ["drawing/frame"]);
+    let as_part = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
+    assert_eq!(told(&all, &as_part), ["drawing/may-be-frame"]);
+    // A line without a seam line is a cut-out more often than a part, and one that fills little is a pocket.
+    let bare = format!("{}{part}", rectangle(0, 0, 20_000, 28_000));
+    assert_eq!(told(&bare, &Job::default()), ["drawing/may-be-frame"]);
+    let far = format!("{}{part}{seam}", rectangle(0, 0, 60_000, 36_000));
+    assert_ne!(told(&far, &Job::default()), ["drawing/frame-or-part"]);
 }
