@@ -55,6 +55,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("straight-edge.cut", COARSE), // an edge as long as the blade that bends a little
     ("stroke-there-and-back.plt", "--cut-all"), // the same in a plot
     ("tabs.cut", ""),         // a curve that begins at a reflex corner
+    ("thread-between-edges.cut", ""), // a cut that ends between two edges of its neighbours, 0.2 mm apart
     ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
     ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
     ("u-half-as-deep-as-wide.dxf", ""), // a notch that is half a circle

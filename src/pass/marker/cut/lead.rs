@@ -126,7 +126,11 @@ impl<'a> Leads<'a> {
         if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
             return Some(end);
         }
-        let way = self.straight_on(ring, at, along, |other| to.not.is_none() || other != to.not)?;
+        // A nearer cut may be that of another edge, with a thread between the two. Going on to the neighbour's crosses both.
+        let Asked { near, beyond, .. } = self.asked;
+        let through = through.filter(|&way| way <= DEEPEST * near.distance + beyond);
+        let any = || self.straight_on(ring, at, along, |other| to.not.is_none() || other != to.not);
+        let way = through.or_else(any)?;
         Some(if way > LEAST { at + along * way } else { at })
     }
 
