@@ -17,9 +17,8 @@ pub(super) struct Scene<'a> {
     pub(super) whole: Pair,
     stroke: &'a str,
     fill: &'a str,
-    /// True if lines, or areas, are wholly transparent.
-    has_clear_stroke: bool,
-    has_clear_fill: bool,
+    /// True if lines, and areas, are wholly transparent.
+    is_clear: [bool; 2],
     pub(super) is_visible: bool,
     /// Names of the Inkscape layer and of the outermost named group.
     layer: Option<&'a str>,
@@ -38,8 +37,7 @@ impl<'a> Scene<'a> {
             whole,
             stroke: "none",
             fill: "black",
-            has_clear_stroke: false,
-            has_clear_fill: false,
+            is_clear: [false; 2],
             is_visible: true,
             layer: None,
             group: None,
@@ -56,8 +54,10 @@ impl<'a> Scene<'a> {
         Self {
             stroke: own(style::STROKE).unwrap_or(self.stroke),
             fill: own(style::FILL).unwrap_or(self.fill),
-            has_clear_stroke: is_clear(style::STROKE_OPACITY, self.has_clear_stroke),
-            has_clear_fill: is_clear(style::FILL_OPACITY, self.has_clear_fill),
+            is_clear: [
+                is_clear(style::STROKE_OPACITY, self.is_clear[0]),
+                is_clear(style::FILL_OPACITY, self.is_clear[1]),
+            ],
             is_visible: own(style::VISIBILITY).map_or(self.is_visible, |value| value == "visible"),
             depth: self.depth + 1,
             ..self
@@ -78,12 +78,12 @@ impl<'a> Scene<'a> {
 
     /// True if the stroke of a shape is visible.
     pub(super) fn has_stroke(&self) -> bool {
-        !self.has_clear_stroke && is_paint(self.stroke)
+        !self.is_clear[0] && is_paint(self.stroke)
     }
 
     /// True if the fill of a shape is visible.
     pub(super) fn has_fill(&self) -> bool {
-        !self.has_clear_fill && is_paint(self.fill)
+        !self.is_clear[1] && is_paint(self.fill)
     }
 
     /// Name of the layer of a shape, otherwise the colour of its stroke or fill.
