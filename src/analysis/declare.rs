@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::cloth::Cloth;
 use super::plunge::{Plunge, WORTH_SHARE};
-use super::swing::Swing;
+use super::swing::{Swing, swing};
 use crate::geom::{Point, polyline};
 use crate::ir::declaration::{Declaration, Kind, Total, Which};
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
@@ -17,20 +17,20 @@ const SAME_EPSILON: f64 = 1e-6;
 const PER_MM: f64 = 1000.0;
 
 /// Declarations of the toolpath of a cut on this cloth. `drawn` is the index of the cut in the marker and its line, which ends
-/// with its first point if it is closed; `swings` are those of its runs ([`super::swing::swings`]).
+/// with its first point if it is closed; `moved` has the swings of its runs in their planned motion, and is empty without one.
 pub fn declarations(
     toolpath: &Toolpath,
     (cut, drawn): (u32, &[Point]),
-    swings: &[Option<Swing>],
+    moved: &[Option<Swing>],
     knife: &Knife,
     cloth: &Cloth,
 ) -> Vec<Declaration> {
     let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
     let mut of_cut = OfCut { toolpath, cut, drawn, knife, cloth, last: 0, found: Vec::new() };
-    let mut swings = swings.iter();
+    let mut moved = moved.iter();
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => of_cut.run(run, swings.next().expect("each run has its own")),
+            Step::Run(run) => of_cut.run(run, moved.next().copied().flatten()),
             Step::PlungeCut(plunge_cut) => of_cut.plunge_cut(plunge_cut),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
@@ -45,11 +45,10 @@ pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
         let (count, pieces) = (of_kind().count(), of_kind().map(|entry| marker.cuts[entry.cut as usize].piece));
         let pieces = pieces.collect::<BTreeSet<_>>().len();
         // The first of several equal ones.
-        let worst =
-            of_kind().reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
+        let worst = of_kind().reduce(|worst, next| if next.size_mm() > worst.size_mm() { next } else { worst })?;
         let piece = &marker.pieces[marker.cuts[worst.cut as usize].piece as usize];
         let (piece, copy) = (piece.number, piece.copy);
-        Some(Total { kind, count, pieces, worst_mm: worst.magnitude_mm, piece, copy, at_mm: worst.at_mm })
+        Some(Total { kind, count, pieces, worst_mm: worst.size_mm(), piece, copy, at_mm: worst.at_mm })
     };
     Kind::ALL.into_iter().filter_map(of_kind).collect()
 }
@@ -111,12 +110,16 @@ struct OfCut<'a> {
 }
 
 impl OfCut<'_> {
-    fn run(&mut self, run: &Run, swing: &Option<Swing>) {
+    fn run(&mut self, run: &Run, moved: Option<Swing>) {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
-        if let &Some(Swing { off, tip, at, .. }) = swing {
-            self.declare(Kind::Swing, ends, None, Magnitude { by: off, at: tip });
-            self.in_part(self.cloth.part_at(at));
+        if let Some(drawn) = swing(run, self.knife.width_mm).filter(|drawn| drawn.off > self.knife.max_bow_mm) {
+            let shown = moved.unwrap_or(drawn);
+            self.declare(Kind::Swing, ends, None, Magnitude { by: drawn.off, at: shown.tip });
+            let within = self.cloth.part_at(shown.at);
+            let last = self.found.last_mut().expect("one was declared");
+            last.within = within;
+            last.seen_mm = moved.map(|moved| rounded(moved.off.min(drawn.off)));
         }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
         let stands_still = self.stands_still(run);
@@ -135,7 +138,7 @@ impl OfCut<'_> {
                 Side::Part if by > SAME_EPSILON => {
                     let at = which.of(&run.extended());
                     self.declare(Kind::Overcut, [station; 2], Some(which), Magnitude { by, at });
-                    self.in_part(Some(self.toolpath.part));
+                    self.found.last_mut().expect("one was declared").within = Some(self.toolpath.part);
                 }
                 Side::Waste | Side::Part | Side::Gap => {}
             }
@@ -259,12 +262,16 @@ impl OfCut<'_> {
     }
 
     fn declare(&mut self, kind: Kind, stretch: [f64; 2], end: Option<Which>, Magnitude { by, at }: Magnitude) {
-        // Zero is added to make 0 of -0.
-        let rounded = |value: f64| (value * PER_MM).round() / PER_MM + 0.0;
         let [from_mm, to_mm] = stretch.map(rounded);
         let (magnitude_mm, at_mm) = ((by * PER_MM).ceil() / PER_MM, [at.x, at.y].map(rounded));
-        self.found.push(Declaration { kind, cut: self.cut, from_mm, to_mm, end, part: None, magnitude_mm, at_mm });
+        let (cut, part, seen_mm, within) = (self.cut, None, None, None);
+        self.found.push(Declaration { kind, cut, from_mm, to_mm, end, part, magnitude_mm, at_mm, seen_mm, within });
     }
+}
+
+/// A value for people. Zero is added to make 0 of -0.
+fn rounded(value: f64) -> f64 {
+    (value * PER_MM).round() / PER_MM + 0.0
 }
 
 /// Station of the end of a stretch at which it is plunged or lifted.

@@ -2,7 +2,7 @@
 
 use super::plunge::Plunge;
 use crate::geom::{Point, Vector, polyline};
-use crate::ir::toolpath::{Edge, OrientationMode, Pose, Run, Shape, Toolpath};
+use crate::ir::toolpath::{Edge, OrientationMode, Pose, Run, Shape};
 use crate::machine::Knife;
 
 /// Distance before and behind a place between which its direction is taken, mm: nearer points show only their rounding.
@@ -25,26 +25,6 @@ pub struct Swing {
     pub vertex: usize,
 }
 
-/// Swing of each run of a toolpath that exceeds `knife.max_bow_mm`, in the order of the runs. `poses` has the motion of each
-/// run, if it is planned: smoothing turns the blade before and behind a bend, and the heel is less far off than at the bend as
-/// drawn. Without a motion the line as drawn gives the swing.
-pub fn swings<P: Iterator<Item = Pose>>(
-    toolpath: &Toolpath,
-    knife: &Knife,
-    poses: impl Fn(usize) -> Option<P>,
-) -> Vec<Option<Swing>> {
-    let is_declared = |swing: &Swing| swing.off > knife.max_bow_mm;
-    let of_run = |(index, run): (usize, &Run)| {
-        let drawn = swing(run, knife.width_mm).filter(is_declared)?;
-        // A chord has both its ends on the line: smoothing changes little.
-        match poses(index).filter(|_| run.orientation == OrientationMode::Tangent) {
-            Some(poses) => moved(run, knife, poses).filter(is_declared),
-            None => Some(drawn),
-        }
-    };
-    toolpath.runs().enumerate().map(of_run).collect()
-}
-
 /// Greatest deviation of the body of a blade from a run that its tip follows, without the deviation at its plunge; `None` if
 /// there is none.
 pub fn swing(run: &Run, width: f64) -> Option<Swing> {
@@ -54,8 +34,12 @@ pub fn swing(run: &Run, width: f64) -> Option<Swing> {
     (worst.off > 0.0).then(|| Swing { vertex: worst.vertex % run.spans.len(), ..worst })
 }
 
-/// Greatest distance of the trailing end of a blade from a run along whose tangent it moves through these poses.
-fn moved(run: &Run, knife: &Knife, poses: impl Iterator<Item = Pose>) -> Option<Swing> {
+/// Greatest distance of the trailing end of a blade from a run along whose tangent it moves through these poses; `None` for a
+/// blade that is its chord. Smoothing turns the blade before and behind a bend: the distance is less than at the bend as drawn.
+pub fn moved(run: &Run, knife: &Knife, poses: impl Iterator<Item = Pose>) -> Option<Swing> {
+    if run.orientation == OrientationMode::Chord {
+        return None;
+    }
     let Followed { path, stations, from, width, .. } = Followed::new(run, knife.width_mm)?;
     let chords = run.spans.len();
     let [ahead, behind] = match run.edge {

@@ -168,7 +168,7 @@ pub struct Spent {
     pub limits: Vec<(Limit, f64)>,
 }
 
-/// What limits a controller that plans for itself.
+/// Limit of a controller that plans for itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// F, as the speed of the blade.

@@ -30,10 +30,23 @@ pub struct Declaration {
     pub part: Option<u32>,
     /// Magnitude, mm, as defined by the kind.
     pub magnitude_mm: f64,
-    /// Place on the cloth at which it is greatest, for a swing that of the tip: X and Y, mm. For people only: the verifier judges
-    /// by the stretch.
+    /// Place on the cloth at which it is greatest, for a swing that of the tip: X and Y, mm. For people only, as are the fields
+    /// below: the verifier judges by the stretch.
     #[serde(default)]
     pub at_mm: [f64; 2],
+    /// Magnitude of a swing in the planned motion, mm: less than at the bend as drawn, which smoothing rounds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seen_mm: Option<f64>,
+    /// Part in which the end of the blade then is: index of the piece in the marker, from 0; `None` in the waste.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<u32>,
+}
+
+impl Declaration {
+    /// Size of the deviation as people are told it, mm.
+    pub fn size_mm(&self) -> f64 {
+        self.seen_mm.unwrap_or(self.magnitude_mm)
+    }
 }
 
 /// Kind of a deviation; it defines the meaning of the magnitude.

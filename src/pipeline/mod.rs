@@ -167,7 +167,8 @@ pub fn compile_all(
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
-    let (declared, deviations, controller) = (&report.declared[..], &written.declared[..], written.estimate.as_ref());
+    let (declared, deviations, controller) =
+        (&report.declared[..], &written.declared[..], written.estimate.as_ref().filter(|_| !diagnostics.has_errors()));
     let known = Known { verdict: verdict.as_ref(), declared, deviations, controller };
     finish(&context, (products, &mut pages), known, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
@@ -345,10 +346,8 @@ pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut
 /// The program on the controller of a profile with keys of such a one; `None` if the target cannot express the job.
 fn estimated_there(context: &Context) -> io::Result<Option<Controller>> {
     let mut unread = SpooledTempFile::new(SCRATCH_BYTES);
-    let mut arcs = TARGETS.iter().find(|target| matches!(target.emit, Emit::Arcs(_)));
-    if !context.job.origin.is_for_gcode() {
-        arcs = None;
-    }
+    let is_asked = context.job.origin.is_for_gcode();
+    let arcs = TARGETS.iter().find(|target| is_asked && matches!(target.emit, Emit::Arcs(_)));
     let Some(sink) = arcs.and_then(|target| Sink::new(&target.emit, context, &mut unread)) else { return Ok(None) };
     let (mut refused, plan) = (Diagnostics::default(), Plan { motion: false, advance: &Advance::default() });
     let toolpaths = Toolpaths::new(context.marker, context.job);

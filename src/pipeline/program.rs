@@ -11,11 +11,11 @@ use super::report::{Axes, Program, Sides};
 use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
-use super::swings::warn;
+use super::swings;
 use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
-use crate::analysis::swing::swings;
+use crate::analysis::swing;
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, PageWriter, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
@@ -141,10 +141,13 @@ impl Wanted<'_> {
         let declared = declared.flat_map_iter(|(place, cut, cloth, found)| {
             let (toolpath, knife) = (&toolpaths[place], &self.job.profile.knife);
             let planned = cuts.get(place).and_then(|cuts| cuts.as_ref().ok());
-            let swings = swings(toolpath, knife, |run| Some(planned?[run].poses()));
-            warn(toolpath, &swings, knife, found);
+            let planned = planned.filter(|_| self.interpolations.is_empty());
+            let runs = || toolpath.runs().zip(planned.into_iter().flatten());
+            let moved: Vec<_> = runs().map(|(run, cut)| swing::moved(run, knife, cut.poses())).collect();
             let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
-            declare::declarations(toolpath, (cut, &drawn), &swings, knife, cloth)
+            let declared = declare::declarations(toolpath, (cut, &drawn), &moved, knife, cloth);
+            swings::warn(toolpath, &declared, knife, found);
+            declared
         });
         let declared = declared.collect();
         self.advance.plan(count);

@@ -145,7 +145,7 @@ pub struct Controller {
     pub moves: usize,
     /// Name of the planner whose time it is.
     pub planner: &'static str,
-    /// What the time is spent by, the greatest first; absent where it is not known.
+    /// Time by limit, the greatest first; absent where it is not known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<Limited>,
 }

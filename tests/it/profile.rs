@@ -81,7 +81,7 @@ fn questions_end_with_a_profile_and_a_trial() {
         "1/12  Which controller",
         "no profile has the name `fluid`",
         "must be a number from 0 to 1000 mm",
-        "the answer has 3 parts, divided by commas",
+        "give 3 values with commas between them",
         "12/12  How long",
         "cutc compile own-trial.cut -p ./own.toml -o own-trial.ngc --set sheet.origin=corner",
         "wrote `own-trial.ngc`",

@@ -71,7 +71,7 @@ impl About<'_> {
     /// Declared deviations, the greatest first.
     pub(super) fn deviations(&self) -> Vec<Declaration> {
         let mut entries = self.outcome.deviations.to_vec();
-        entries.sort_by(|a, b| b.magnitude_mm.total_cmp(&a.magnitude_mm));
+        entries.sort_by(|a, b| b.size_mm().total_cmp(&a.size_mm()));
         entries.truncate(MOST_MARKS);
         entries
     }

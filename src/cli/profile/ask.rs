@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::questions::{QUESTIONS, Question};
 use crate::cli::draft::write_new;
-use crate::cli::finished::{Console, DONE, Finished, Run, failure};
+use crate::cli::finished::{Console, DONE, FAULTY, Finished, Run, failure};
 use crate::machine::{Extent, Faults, MachineProfile, SHIPPED, Shipped, TRIAL, load};
 
 /// File of the profile if none is named.
@@ -16,7 +16,7 @@ const PROFILE: &str = "machine.toml";
 ///
 /// # Errors
 ///
-/// A file is there already or cannot be written, or the answers end before the questions do. Then nothing is written.
+/// A file is there already, or the answers end before the questions do: then nothing is written. Or a file cannot be written.
 pub(super) fn run(
     out: Option<&PathBuf>,
     answers: &mut dyn BufRead,
@@ -25,7 +25,8 @@ pub(super) fn run(
 ) -> anyhow::Result<Finished> {
     let profile = out.cloned().unwrap_or_else(|| PathBuf::from(PROFILE));
     let drawing = profile.with_file_name(format!("{}-trial.cut", stem(&profile)));
-    if let Some(there) = [&profile, &drawing].into_iter().find(|path| path.exists()) {
+    let program = drawing.with_extension("ngc");
+    if let Some(there) = [&profile, &drawing, &program].into_iter().find(|path| path.exists()) {
         let message = format!("`{}` is there already", there.display());
         return Err(failure(message, "name another file with -o: no profile is overwritten"));
     }
@@ -43,10 +44,10 @@ pub(super) fn run(
     let shown: Vec<String> = command.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     let finished = cutc(command, console);
     let files = format!("wrote `{}`\nwrote `{}`\n", profile.display(), drawing.display());
-    let next = if finished.code == DONE {
-        "`cutc manual trial` says how to cut it on paper and how to read what it shows\n"
-    } else {
-        "the trial cannot be cut with these values: change them in the profile, and compile it again\n"
+    let next = match finished.code {
+        DONE => "`cutc manual trial` says how to cut it on paper and how to read what it shows\n",
+        FAULTY => "the trial cannot be cut with these values: change them in the profile, and compile it again\n",
+        _ => "",
     };
     let stderr = format!("{files}\n{}\n\n{}{next}", shown.join(" "), finished.stderr);
     Ok(Finished { stderr, ..finished })
@@ -133,7 +134,12 @@ impl Dialogue<'_, '_> {
             }
             let Some(arguments) = question.arguments(&answer) else {
                 let count = question.keys.len();
-                self.say(&format!("  the answer has {count} parts, divided by commas, as in `{shown}`\n"))?;
+                let values = if count == 1 {
+                    "one value, without commas".to_owned()
+                } else {
+                    format!("{count} values with commas between them")
+                };
+                self.say(&format!("  give {values}, as in `{shown}`\n"))?;
                 continue;
             };
             match load(Some(&shipped.source()), &[sets, &arguments[..]].concat()) {

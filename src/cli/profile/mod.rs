@@ -51,7 +51,8 @@ enum Command {
         /// Ask twelve questions about the machine, then write its profile, the drawing of a trial and the
         /// trial's program
         ///
-        /// The files are those of `-o`, without it `machine.toml`, `machine-trial.cut` and `machine-trial.ngc`.
+        /// The files have the name of `-o`; without it they are `machine.toml`, `machine-trial.cut` and
+        /// `machine-trial.ngc` with its `.meta.json`.
         /// `cutc manual trial` says how to read what the trial cuts.
         #[arg(long, conflicts_with_all = ["controller", "all"])]
         ask: bool,

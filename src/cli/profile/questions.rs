@@ -7,7 +7,7 @@ use crate::machine::MachineProfile;
 pub(super) struct Question {
     /// The question.
     pub(super) asks: &'static str,
-    /// How to find the answer, a line or several.
+    /// Instructions for finding the answer, one line or several.
     pub(super) how: &'static str,
     /// Keys that the answer sets, and for each the words that stand for values.
     pub(super) keys: &'static [(&'static str, &'static [(&'static str, &'static str)])],
@@ -17,7 +17,8 @@ pub(super) struct Question {
 pub(super) const QUESTIONS: &[Question] = &[
     Question {
         asks: "Where does the table begin and end: along X, along Y?",
-        how: "Least and greatest position of each axis over the cloth, as in `0 1800, 0 1200`; or `unlimited, unlimited`.",
+        how: "Least and greatest position of each axis over the cloth in mm, as in `0 1800, 0 1200`;\n\
+              or `unlimited, unlimited`.",
         keys: &[("table.x_mm", &[]), ("table.y_mm", &[])],
     },
     Question {
@@ -27,9 +28,10 @@ pub(super) const QUESTIONS: &[Question] = &[
     },
     Question {
         asks: "How far is it from the axis that turns the blade back to its rear edge?",
-        how: "Press the blade into paper and lift it; turn the axis by half a turn without moving X or Y, and press again.\n\
-              Half of the whole length of both slits is the longer way from the axis to an edge. If the tip is the nearer\n\
-              edge, as on most cutters, that is the answer; otherwise it is the width less that half.",
+        how: "Press the blade into paper and lift it; turn the axis by half a turn without moving X or Y, and\n\
+              press again. Half of the whole length of both slits is the longer way from the axis to an edge.\n\
+              If the tip is the nearer edge, as on most cutters, that is the answer; otherwise it is the width\n\
+              less that half.",
         keys: &[("knife.back_mm", &[])],
     },
     Question {
@@ -39,7 +41,8 @@ pub(super) const QUESTIONS: &[Question] = &[
     },
     Question {
         asks: "How fast are the axes at most: X, Y, and the blade's turn?",
-        how: "In mm/s and degrees/s, as the controller is set: `$110`, `$111` and `$113` of grbl are a minute, 60 times that.",
+        how: "In mm/s and degrees/s, as the controller is set: `$110`, `$111` and `$113` of grbl count a minute,\n\
+              and are 60 times as large.",
         keys: &[("axes.x.speed_mm_s", &[]), ("axes.y.speed_mm_s", &[]), ("axes.c.speed_deg_s", &[])],
     },
     Question {
@@ -53,7 +56,8 @@ pub(super) const QUESTIONS: &[Question] = &[
     },
     Question {
         asks: "How far may the blade's axis turn?",
-        how: "Least and greatest position in degrees, as in `-360 360`, if a cable or a hose goes to the blade; or `unbounded`.",
+        how: "Least and greatest position in degrees, as in `-360 360`, if a cable or a hose goes to the blade;\n\
+              or `unbounded`.",
         keys: &[("c.range_deg", &[])],
     },
     Question {
@@ -68,7 +72,8 @@ pub(super) const QUESTIONS: &[Question] = &[
     },
     Question {
         asks: "What puts the knife down, and what lifts it?",
-        how: "Blocks for the controller, with `;` between several: `G0 Z-2, G0 Z5` moves Z, `M64 P0, M65 P0` switches an output.",
+        how: "Blocks for the controller, with `;` between several: `G0 Z-2, G0 Z5` moves Z, `M64 P0, M65 P0`\n\
+              switches an output.",
         keys: &[("gcode.knife_down", &[]), ("gcode.knife_up", &[])],
     },
     Question {

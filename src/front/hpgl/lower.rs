@@ -232,9 +232,10 @@ impl Lowering<'_> {
         match instruction {
             Instruction::Label => self.label(span),
             Instruction::Terminator => self.reader.define_terminator(),
-            Instruction::Buffer => self.buffer = Some(self.text(span)).filter(|text| text.start < text.end),
+            Instruction::Buffer => self.buffer = Some(self.text(span)),
             Instruction::PrintBuffer => match self.buffer {
-                Some(text) => self.write(text),
+                Some(text) if text.start < text.end => self.write(text),
+                Some(_) => {}
                 None => self.plotter.tear(span),
             },
             Instruction::Display => {
@@ -377,7 +378,8 @@ impl Lowering<'_> {
         if let Some(span) = self.reader.comma() {
             self.tally.comma(span);
         }
-        while let Some((pair, span)) = self.pair() {
+        self.tally.list_from = self.reader.at() as u32;
+        while let Some((pair, span)) = self.reader.plain_pair().or_else(|| self.pair()) {
             let to = self.plotter.target(pair);
             let outcome = self.plotter.lead(to, span);
             self.check(outcome, span);
@@ -387,6 +389,7 @@ impl Lowering<'_> {
         if self.plotter.is_drawing() {
             self.tally.places += places;
         }
+        self.tally.lists += usize::from(places > 0);
         places
     }
 

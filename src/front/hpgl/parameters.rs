@@ -130,7 +130,7 @@ pub(super) struct Amid {
     pub(super) page: bool,
 }
 
-/// Instructions with more numbers than they take, or with those of a place.
+/// Instructions with more numbers than they take, with those of a place, or with a pen that no plotter has.
 #[derive(Debug, Default)]
 pub(super) struct Surplus {
     count: Count,
@@ -139,6 +139,8 @@ pub(super) struct Surplus {
     /// Instructions with pairs of numbers that they cannot have.
     places: Count,
     first_place: Option<&'static Arity>,
+    /// True behind a CR, which gives colours a range of their own.
+    has_range: bool,
 }
 
 impl Surplus {
@@ -147,6 +149,7 @@ impl Surplus {
         if let [b'P', b'U' | b'D' | b'A' | b'R'] = mnemonic {
             return; // nearly all: moves, without a limit
         }
+        self.has_range |= mnemonic == *b"CR";
         let Ok(row) = ROWS.binary_search_by(|row| row.mnemonic.cmp(&mnemonic)) else { return };
         let arity = &ROWS[row];
         let numbers = reader.numbers_ahead();
@@ -155,7 +158,11 @@ impl Surplus {
             self.first.get_or_insert((arity, numbers));
         } else if mnemonic == *b"PW" && reader.second_ahead().is_some_and(|pen| pen > MOST_PENS) {
             self.pens.add(span);
-        } else if numbers > 0 && numbers.is_multiple_of(2) && arity.may_be_place(amid, &reader.first_ahead()) {
+        } else if numbers > 0
+            && numbers.is_multiple_of(2)
+            && !(mnemonic == *b"PC" && self.has_range)
+            && arity.may_be_place(amid, reader)
+        {
             self.places.add(span);
             self.first_place.get_or_insert(arity);
         }
@@ -199,7 +206,9 @@ const NUMBERS_OF_COLOURS: usize = 6;
 
 impl Arity {
     /// True if its pairs of numbers can only be places: it is a move with a changed letter.
-    fn may_be_place(&self, amid: Amid, numbers: &[f64]) -> bool {
+    fn may_be_place(&self, amid: Amid, reader: &Reader<'_>) -> bool {
+        let numbers = &reader.first_ahead();
+        let is_within = || amid.stroke && reader.is_led_on();
         let is_beyond = |most: f64| numbers.iter().any(|number| number.abs() > most);
         let has_kind_beyond = |most: f64| numbers.iter().step_by(2).any(|kind| !(0.0..=most).contains(kind));
         match self.mnemonic {
@@ -207,10 +216,10 @@ impl Arity {
             b"LA" => has_kind_beyond(MOST_KINDS_OF_LINES),
             b"CA" => has_kind_beyond(MOST_SETS),
             b"CR" => numbers.len() != NUMBERS_OF_COLOURS,
-            b"PC" => amid.stroke || is_beyond(MOST_COLOURS),
-            b"SR" => amid.stroke || is_beyond(MOST_PERCENT),
+            b"PC" => is_within() || is_beyond(MOST_COLOURS),
+            b"SR" => is_within() || is_beyond(MOST_PERCENT),
             b"PS" => amid.page,
-            b"DR" | b"EA" | b"ER" => amid.stroke,
+            b"DR" | b"EA" | b"ER" => is_within(),
             _ => false,
         }
     }

@@ -188,14 +188,25 @@ impl<'a> Reader<'a> {
 
     /// The next two numbers of the instruction.
     pub(super) fn pair(&mut self) -> Next<Pair> {
-        let i = &self.bytes[self.at..];
-        // The comma before the pair does not belong to its place.
-        let start = self.at + usize::from(i.first() == Some(&b','));
-        if let Some((rest, pair)) = syntax::plain_pair(i) {
-            self.at = self.bytes.len() - rest.len();
-            return Next::Some((pair, self.span(start)));
+        match self.plain_pair() {
+            Some(pair) => Next::Some(pair),
+            None => self.unusual_pair(self.pair_start()),
         }
-        self.unusual_pair(start)
+    }
+
+    /// The next two numbers of the instruction if they are whole and parted by a single comma, as nearly all are.
+    #[inline]
+    pub(super) fn plain_pair(&mut self) -> Option<Pair> {
+        let start = self.pair_start();
+        let (rest, pair) = syntax::plain_pair(&self.bytes[self.at..])?;
+        self.at = self.bytes.len() - rest.len();
+        Some((pair, self.span(start)))
+    }
+
+    /// Start of the next pair: the comma before it does not belong to its place.
+    #[inline]
+    fn pair_start(&self) -> usize {
+        self.at + usize::from(self.bytes.get(self.at) == Some(&b','))
     }
 
     /// The next two numbers, not both whole or not parted by a single comma.
@@ -325,6 +336,14 @@ impl<'a> Reader<'a> {
     /// Offset of the next byte.
     pub(super) fn at(&self) -> usize {
         self.at
+    }
+
+    /// True if a move follows the numbers that are next, so that a stroke goes on behind them.
+    pub(super) fn is_led_on(&self) -> bool {
+        let rest = &self.bytes[self.at..];
+        let Some(end) = memchr::memchr(b';', rest) else { return false };
+        let next = rest[end + 1..].trim_ascii_start();
+        [b"PD", b"PA", b"PR"].iter().any(|mnemonic| next.starts_with(*mnemonic))
     }
 
     /// True if a number is next.

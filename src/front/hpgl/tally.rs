@@ -17,8 +17,9 @@ const MOST_NAMES: usize = 40;
 /// Maximum number of mnemonics named in a message.
 const SHOWN_NAMES: usize = 8;
 
-/// Least number of plain places, or of instructions, for each one with a separator of its own.
+/// Least number of plain places of lines for each one with a separator of its own, and of plain lists of places.
 const FEW_PLAIN: usize = 5;
+const FEW_LISTS: usize = 3;
 /// Least number of instructions for each comma before their numbers.
 const FEW_COMMAS: usize = 10;
 
@@ -52,6 +53,11 @@ pub(super) struct Tally {
     commas: Count,
     /// Places of lines with a blank or a plus sign.
     lone: Count,
+    /// Lists of places with a blank before the first number, and number of all lists of places.
+    leads: Count,
+    pub(super) lists: usize,
+    /// Place behind the last mnemonic of a move.
+    pub(super) list_from: u32,
     /// Lists of places with a comma or a blank behind the last number.
     pub(super) ends: Count,
     pub(super) surplus: Surplus,
@@ -91,7 +97,13 @@ impl Tally {
     /// Records a place of a line that is not written as digits and a comma alone. A line break parts numbers of any program.
     pub(super) fn unusual(&mut self, text: &[u8], span: Span) {
         self.decimals.see(text, span);
-        if text.iter().any(|byte| b" \t+".contains(byte)) && !text.contains(&b'\n') {
+        let is_separator = |byte: &u8| b" \t+".contains(byte);
+        if text.contains(&b'\n') || !text.iter().any(is_separator) {
+            return;
+        }
+        if span.start == self.list_from && !text.trim_ascii_start().iter().any(is_separator) {
+            self.leads.add(span);
+        } else {
             self.lone.add(span);
         }
     }
@@ -228,14 +240,14 @@ impl Tally {
 
     /// The finding on places with a blank, a plus sign or a comma where nearly all have none.
     fn lone_separator(&self) -> Option<Diagnostic> {
-        let few = |count: usize, among: usize| if among >= FEW_PLAIN * count { count } else { 0 };
-        let (inside, ends) = (self.lone, self.ends);
-        let counts = [
-            (few(inside.count, self.places.saturating_sub(inside.count)), inside.first),
-            (few(ends.count, self.sound), ends.first),
-        ];
+        let few = |count: Count, all: usize, least: usize| {
+            let is_few = all.saturating_sub(count.count) >= least * count.count;
+            (if is_few { count.count } else { 0 }, count.first)
+        };
+        let of_lists = |count: Count| few(count, self.lists, FEW_LISTS);
+        let counts = [few(self.lone, self.places, FEW_PLAIN), of_lists(self.leads), of_lists(self.ends)];
         let first = counts.iter().filter(|(count, _)| *count > 0).filter_map(|(_, first)| *first).min();
-        let lone = Count { count: counts[0].0 + counts[1].0, first: Some(first?) };
+        let lone = Count { count: counts.iter().map(|(count, _)| count).sum(), first: Some(first?) };
         let message = format!("a blank, a comma or a plus sign is beside a number; this happens {}", lone.times());
         let finding = lone.diagnostic(&code::HPGL_LONE_SEPARATOR, message);
         Some(finding.hint("if a digit has become one, a cut leads elsewhere: see it in the picture (-t svg)"))

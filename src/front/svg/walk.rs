@@ -58,7 +58,7 @@ const SILENT: &[&str] = &[
     "hatch",
 ];
 /// Elements that draw lines or letters, or copy others that do.
-const DRAWN: &[&str] = &["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "use", "image"];
+const DRAWN: &[&str] = &["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "use"];
 /// Elements that change another one in time.
 const ANIMATIONS: &[&str] = &["animate", "animateColor", "animateMotion", "animateTransform", "set"];
 
@@ -219,7 +219,9 @@ impl<'a, 'input, 'o> Walk<'a, 'input, 'o> {
 
     /// Counts the shapes and texts of an element that is not seen.
     fn hide(&mut self, node: Node<'a, 'input>) {
-        let is_drawn = |node: &Node| DRAWN.contains(&node.tag_name().name());
+        let is_silent = |node: &Node| SILENT.contains(&node.tag_name().name());
+        let is_drawn =
+            |node: &Node| DRAWN.contains(&node.tag_name().name()) && !node.ancestors().any(|node| is_silent(&node));
         let count = node.descendants().filter(is_drawn).count();
         self.elements += count;
         self.tally.hide(count, self.span(node));

@@ -102,6 +102,8 @@ fn an_overcut_at_the_wrong_end_is_refused_though_it_is_declared() {
                 part: Some(0),
                 magnitude_mm: surplus,
                 at_mm: [0.0; 2],
+                seen_mm: None,
+                within: None,
             }]));
             broken(&program.judge(&marker))
         };

@@ -70,6 +70,8 @@ fn shortened(marker: &Marker) -> Vec<&'static str> {
         part: None,
         magnitude_mm: 0.79,
         at_mm: [0.0; 2],
+        seen_mm: None,
+        within: None,
     }]));
     broken(&program.judge(marker))
 }
@@ -110,6 +112,8 @@ fn declared_at(job: &Job, ends: &[Which]) -> Vec<&'static str> {
         part: Some(0),
         magnitude_mm: 1.8,
         at_mm: [0.0; 2],
+        seen_mm: None,
+        within: None,
     };
     program.declared = Some(Declared::new(ends.iter().map(entry).collect()));
     broken(&program.judge(&marker))

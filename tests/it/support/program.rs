@@ -1,15 +1,13 @@
 //! Programs made from a marker alone, without a source: passed, planned and written as setpoints.
 
 use std::io::Cursor;
-use std::iter::Empty;
 
 use cutc::analysis::cloth::Cloth;
 use cutc::analysis::declare;
-use cutc::analysis::swing::swings;
 use cutc::back::{Context, SETPOINTS};
 use cutc::ir::declaration::Declaration;
 use cutc::ir::marker::Cut;
-use cutc::ir::toolpath::{Pose, Step};
+use cutc::ir::toolpath::Step;
 use cutc::ir::{Marker, Toolpath};
 use cutc::machine::Job;
 use cutc::pipeline::Declared;
@@ -46,8 +44,7 @@ pub(crate) fn declarations(marker: &Marker, job: &Job) -> Vec<Declaration> {
     let of_cut = |(toolpath, (cut, index)): (Toolpath, (&Cut, u32))| {
         let drawn = marker.list.points(cut.range);
         let knife = &job.profile.knife;
-        let swings = swings(&toolpath, knife, |_| None::<Empty<Pose>>);
-        declare::declarations(&toolpath, (index, &drawn), &swings, knife, &cloth)
+        declare::declarations(&toolpath, (index, &drawn), &[], knife, &cloth)
     };
     cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect()
 }

@@ -113,7 +113,9 @@ impl Trapezoid {
         let reached = (0.5 * (from * from + to * to) + acceleration * left).sqrt();
         let top = reached.min(block.speed).max(from).max(to);
         let ramps = (2.0 * top * top - from * from - to * to) / (2.0 * acceleration);
-        Self { speeds: [from, top, to], acceleration, cruise: (left - ramps).max(0.0) / top }
+        // A block that ends just as the axes stand has nothing left.
+        let cruise = if top > 0.0 { (left - ramps).max(0.0) / top } else { 0.0 };
+        Self { speeds: [from, top, to], acceleration, cruise }
     }
 
     fn ramp(&self, end: usize) -> f64 {

@@ -21,6 +21,8 @@ use crate::units::{S_PER_MIN, deg};
 const AXES: [char; 4] = ['x', 'y', 'z', 'c'];
 /// Cosine of the angle between two directions above which they are one, and below whose negative they are opposite.
 const STRAIGHT: f64 = 0.999_999;
+/// Greatest number of chords of an arc: the firmware counts them in 16 bits.
+const MOST_CHORDS: f64 = 65_535.0;
 /// Least speed of a block: 1 mm/min.
 const SPEED_MIN: f64 = 1.0 / S_PER_MIN;
 
@@ -99,7 +101,8 @@ impl Pace {
         let (radius, sweep) = (step.curvature.abs().recip(), step.length * step.curvature);
         let tolerance = self.keys.arc_tolerance_mm;
         let half = (tolerance * (2.0 * radius - tolerance)).max(0.0).sqrt();
-        let count = (0.5 * step.length / half).floor().max(1.0);
+        // An arc of a radius below half the tolerance is one chord.
+        let count = if half > 0.0 { (0.5 * step.length / half).floor().clamp(1.0, MOST_CHORDS) } else { 1.0 };
         let angle = sweep / count;
         let length = 2.0 * radius * (0.5 * angle.abs()).sin();
         for i in 0..count as usize {

@@ -7,7 +7,7 @@ use crate::diagnostic::pieces::listed;
 use crate::diagnostic::{Code, Diagnostic, Harm, Severity, code, rank};
 use crate::geom::Point;
 use crate::ir::Finding;
-use crate::ir::declaration::{Kind, Total};
+use crate::ir::declaration::{Declaration, Kind, Total};
 use crate::picture::Markup;
 use crate::units::number::{clock, counted, exact, fixed, short};
 
@@ -91,10 +91,15 @@ fn to_do(worth: Worth, is_harm: bool) -> &'static str {
     }
 }
 
+/// Part in which a deviation lies, by its index.
+fn into(entry: &Declaration) -> Option<u32> {
+    entry.part.or(entry.within)
+}
+
 /// Line on declared deviations that lie in parts.
 fn entered(about: &About, out: &mut Markup) {
-    let within = about.outcome.deviations.iter().filter(|entry| entry.part.is_some() && entry.magnitude_mm > 0.0);
-    let Some(deepest) = within.map(|entry| entry.magnitude_mm).reduce(f64::max) else { return };
+    let within = about.outcome.deviations.iter().filter(|entry| into(entry).is_some() && entry.size_mm() > 0.0);
+    let Some(deepest) = within.map(Declaration::size_mm).reduce(f64::max) else { return };
     let words = format!("The blade goes into parts by up to {} mm, as declared: ", fixed(deepest, 2));
     out.open("p", &[]).text(&words).element("a", &[("href", "#deviations")], "where").close("p");
 }
@@ -333,16 +338,16 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         out.open("tr", &[]);
         cells.text(one, &[], out);
         cells.text(&piece.title(), &[], out);
-        let into = entry.part.and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
+        let into = into(&entry).and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
             own if own == piece.whole => "its own part".to_owned(),
             _ => part.title(),
         });
-        let mut words = format!("{one}, {} mm: {}", fixed(entry.magnitude_mm, 3), piece.title());
+        let mut words = format!("{one}, {} mm: {}", fixed(entry.size_mm(), 3), piece.title());
         if let Some(into) = &into {
             words.extend([" into ", into]);
         }
         cells.text(&into.unwrap_or_default(), &[], out);
-        cells.number(&fixed(entry.magnitude_mm, 3), entry.magnitude_mm, out);
+        cells.number(&fixed(entry.size_mm(), 3), entry.size_mm(), out);
         cells.open(&[], out);
         jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
         out.close("td").close("tr");

@@ -139,7 +139,11 @@ fn messages(about: &About, piece: &Piece, cells: &mut Cells, out: &mut Markup) {
         to_place(about, message, out);
         out.close("li");
     }
-    out.close("ul").close("details").close("td");
+    out.close("ul");
+    if let more @ 1.. = count.saturating_sub(MOST_MESSAGES) {
+        out.element("p", &[], &format!("and {more} more"));
+    }
+    out.close("details").close("td");
 }
 
 /// Cells of the work on a piece: metres, and what its time is spent on.

@@ -69,6 +69,5 @@ impl<'a> Cells<'a> {
 
 /// A cell of a number, with the value to sort by.
 pub(super) fn number(out: &mut Markup, shown: &str, value: f64) {
-    let value = format!("{value}");
-    out.element("td", &[("class", "number"), ("data-value", &value)], shown);
+    out.element("td", &[("class", "number"), ("data-value", &value.to_string())], shown);
 }
