@@ -17,20 +17,24 @@ const SAME_EPSILON: f64 = 1e-6;
 const PER_MM: f64 = 1000.0;
 
 /// Declarations of the toolpath of a cut on this cloth. `drawn` is the index of the cut in the marker and its line, which ends
-/// with its first point if it is closed; `moved` has the swings of its runs in their planned motion, and is empty without one.
+/// with its first point if it is closed; `moved` gives the swing of a run in its planned motion by the index of the run, and
+/// `None` without a motion.
 pub fn declarations(
     toolpath: &Toolpath,
     (cut, drawn): (u32, &[Point]),
-    moved: &[Option<Swing>],
+    moved: &dyn Fn(usize) -> Option<Swing>,
     knife: &Knife,
     cloth: &Cloth,
 ) -> Vec<Declaration> {
     let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
     let mut of_cut = OfCut { toolpath, cut, drawn, knife, cloth, last: 0, found: Vec::new() };
-    let mut moved = moved.iter();
+    let mut runs = 0..;
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => of_cut.run(run, moved.next().copied().flatten()),
+            Step::Run(run) => {
+                let index = runs.next().expect("runs are counted");
+                of_cut.run(run, &|| moved(index));
+            }
             Step::PlungeCut(plunge_cut) => of_cut.plunge_cut(plunge_cut),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
@@ -110,10 +114,11 @@ struct OfCut<'a> {
 }
 
 impl OfCut<'_> {
-    fn run(&mut self, run: &Run, moved: Option<Swing>) {
+    fn run(&mut self, run: &Run, moved: &dyn Fn() -> Option<Swing>) {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
         if let Some(drawn) = swing(run, self.knife.width_mm).filter(|drawn| drawn.off > self.knife.max_bow_mm) {
+            let moved = moved();
             let shown = moved.unwrap_or(drawn);
             self.declare(Kind::Swing, ends, None, Magnitude { by: drawn.off, at: shown.tip });
             let within = self.cloth.part_at(shown.at);

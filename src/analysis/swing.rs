@@ -11,6 +11,8 @@ const LOOK: f64 = 0.5;
 const BEHIND: f64 = 2.0;
 /// Travel of the tip between two poses of a motion that are examined, mm.
 const POSE_STEP: f64 = 0.2;
+/// Greatest distance of a tip from its chord, mm: one that is farther off is past the end of the run, on its overlap.
+const TIP_OFF: f64 = 1.0;
 
 /// Greatest swing of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,10 +61,10 @@ pub fn moved(run: &Run, knife: &Knife, poses: impl Iterator<Item = Pose>) -> Opt
             chord += 1;
         }
         let station = stations[chord] + (tip - path[chord]).norm();
-        if station < from {
+        if station < from || polyline::distance_to_segment(tip, path[chord], path[chord + 1]) > TIP_OFF {
             continue;
         }
-        let first = stations.partition_point(|&passed| passed < station - BEHIND * width).saturating_sub(1);
+        let first = stations.partition_point(|&passed| passed < station - BEHIND * width).saturating_sub(1).min(chord);
         let at = pose.ahead(behind);
         let off = polyline::distance(at, &path[first..=chord]).min(polyline::distance_to_segment(at, path[chord], tip));
         let next = Swing { off, tip, at, vertex: chord % chords };

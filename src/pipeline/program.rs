@@ -142,8 +142,7 @@ impl Wanted<'_> {
             let (toolpath, knife) = (&toolpaths[place], &self.job.profile.knife);
             let planned = cuts.get(place).and_then(|cuts| cuts.as_ref().ok());
             let planned = planned.filter(|_| self.interpolations.is_empty());
-            let runs = || toolpath.runs().zip(planned.into_iter().flatten());
-            let moved: Vec<_> = runs().map(|(run, cut)| swing::moved(run, knife, cut.poses())).collect();
+            let moved = |run: usize| swing::moved(toolpath.runs().nth(run)?, knife, planned?[run].poses());
             let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
             let declared = declare::declarations(toolpath, (cut, &drawn), &moved, knife, cloth);
             swings::warn(toolpath, &declared, knife, found);

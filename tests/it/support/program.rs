@@ -44,7 +44,7 @@ pub(crate) fn declarations(marker: &Marker, job: &Job) -> Vec<Declaration> {
     let of_cut = |(toolpath, (cut, index)): (Toolpath, (&Cut, u32))| {
         let drawn = marker.list.points(cut.range);
         let knife = &job.profile.knife;
-        declare::declarations(&toolpath, (index, &drawn), &[], knife, &cloth)
+        declare::declarations(&toolpath, (index, &drawn), &|_| None, knife, &cloth)
     };
     cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect()
 }
