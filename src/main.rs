@@ -12,8 +12,8 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 fn main() -> ExitCode {
     #[cfg(unix)]
     signals::obey();
-    let finished =
-        cli::run(std::env::args_os().collect(), &mut cli::Console { out: &mut io::stdout(), err: &mut io::stderr() });
+    let words: Vec<_> = std::env::args_os().collect();
+    let finished = cli::run(&words, &mut cli::Console { out: &mut io::stdout(), err: &mut io::stderr() });
     // Ignore errors on standard error: the reader has closed it.
     let _ = io::stderr().lock().write_all(finished.stderr.as_bytes());
     match finished.stdout.copy_to(&mut io::stdout().lock()) {

@@ -23,7 +23,7 @@ pub struct Console<'a> {
 }
 
 /// The command line itself, for a command that ends with another one.
-pub(super) type Run = fn(Vec<OsString>, &mut Console) -> Finished;
+pub(super) type Run = fn(&[OsString], &mut Console) -> Finished;
 
 /// Output of a command, and its exit code.
 #[derive(Debug)]

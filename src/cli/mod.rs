@@ -92,8 +92,8 @@ enum Command {
 }
 
 /// Runs a command line that begins with the name of the program. Long commands report on `console` while they run.
-pub fn run(words: Vec<OsString>, console: &mut Console) -> Finished {
-    let arguments = match Arguments::try_parse_from(&words) {
+pub fn run(words: &[OsString], console: &mut Console) -> Finished {
+    let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
         // Requests for help and for the version arrive here, too.

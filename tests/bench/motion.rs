@@ -60,7 +60,7 @@ fn main() -> Result<(), Failure> {
         let mut input = pipeline::read(&source, None, &job, &mut diagnostics).ok_or("no marker")?;
         let seconds = median(ROUNDS, || {
             let program = pipeline::estimate(&mut input, &source, &job, &mut Diagnostics::default());
-            assert!(program.is_ok_and(|program| program.time_s.is_some()), "it has a motion");
+            assert!(program.is_ok_and(|program| program.program.time_s.is_some()), "it has a motion");
         });
         println!("marker of {pieces:>3} pieces                {:>9.1} ms", 1e3 * seconds);
     }

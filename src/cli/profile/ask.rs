@@ -42,7 +42,7 @@ pub(super) fn run(
     write_new(&drawing, TRIAL)?;
     let command = command(&profile, &drawing, limited);
     let shown: Vec<String> = command.iter().map(|word| word.to_string_lossy().into_owned()).collect();
-    let finished = cutc(command, console);
+    let finished = cutc(&command, console);
     let files = format!("wrote `{}`\nwrote `{}`\n", profile.display(), drawing.display());
     let next = match finished.code {
         DONE => "`cutc manual trial` says how to cut it on paper and how to read what it shows\n",

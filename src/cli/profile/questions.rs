@@ -9,9 +9,12 @@ pub(super) struct Question {
     pub(super) asks: &'static str,
     /// Instructions for finding the answer, one line or several.
     pub(super) how: &'static str,
-    /// Keys that the answer sets, and for each the words that stand for values.
-    pub(super) keys: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+    /// Keys that the answer sets.
+    pub(super) keys: &'static [Key],
 }
+
+/// A key, and the words that stand for its values.
+type Key = (&'static str, &'static [(&'static str, &'static str)]);
 
 /// All questions but the first, which chooses the controller.
 pub(super) const QUESTIONS: &[Question] = &[
@@ -87,7 +90,7 @@ impl Question {
     /// `key=value` arguments of an answer; `None` if it has not as many parts as there are keys.
     pub(super) fn arguments(&self, answer: &str) -> Option<Vec<String>> {
         let parts: Vec<&str> = answer.split(',').map(str::trim).collect();
-        let argument = |(&(key, words), part): (&(&str, &[(&str, &str)]), &&str)| {
+        let argument = |(&(key, words), part): (&Key, &&str)| {
             let known = words.iter().find(|(word, _)| word.eq_ignore_ascii_case(part));
             let value = known.map_or_else(|| value(key, part), |(_, value)| (*value).to_owned());
             format!("{key}={value}")
@@ -97,7 +100,7 @@ impl Question {
 
     /// The answer that a profile gives.
     pub(super) fn answer(&self, profile: &MachineProfile) -> String {
-        let part = |&(key, words): &(&str, &[(&str, &str)])| {
+        let part = |&(key, words): &Key| {
             let value = profile.value(key).expect("a test finds every key of a question");
             let word = words.iter().find(|(_, known)| *known == value.to_string());
             word.map_or_else(|| plain(&value), |(word, _)| (*word).to_owned())
