@@ -188,10 +188,7 @@ impl<'a> Reader<'a> {
 
     /// The next two numbers of the instruction.
     pub(super) fn pair(&mut self) -> Next<Pair> {
-        match self.plain_pair() {
-            Some(pair) => Next::Some(pair),
-            None => self.unusual_pair(self.pair_start()),
-        }
+        self.unusual_pair(self.pair_start())
     }
 
     /// The next two numbers of the instruction if they are whole and parted by a single comma, as nearly all are.

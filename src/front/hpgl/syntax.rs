@@ -55,13 +55,6 @@ pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
 #[inline] // nearly all of a plot is parsed here
 pub(super) fn plain_pair(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
     let i = if let [b',', i @ ..] = i { i } else { i };
-    // Both at once where neither has a sign, except in the last bytes of a file.
-    if let Some((both, [middle, end])) = i.first_chunk().and_then(digits::pair)
-        && i[middle] == b','
-        && !matches!(i[end], b'.' | b'0'..=b'9')
-    {
-        return Some((&i[end..], both.map(f64::from)));
-    }
     let (i, x) = plain_number(i)?;
     let [b',', i @ ..] = i else { return None };
     let (i, y) = plain_number(i)?;
