@@ -114,7 +114,7 @@ fn a_linter_finds_nothing_in_the_player() {
     };
     let clean = lint(&player);
     assert!(clean.status.success(), "{}", String::from_utf8_lossy(&clean.stdout));
-    // What is wrong is found.
+    // A wrong script is refused.
     let folder = tempfile::tempdir().expect("a directory");
     let wrong = folder.path().join("wrong.js");
     std::fs::write(&wrong, "for (let i = 0; i < 9; i--) if (i = 3) console.log(i);\n").expect("writable");

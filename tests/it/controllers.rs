@@ -180,7 +180,7 @@ fn a_longer_look_ahead_is_never_slower_and_costs_what_is_told() {
     };
     let [short, long, longest] = [2, 20, 1000].map(told);
     assert!(short.0 > long.0 + 0.01 && long.0 >= longest.0, "{short:?} {long:?} {longest:?}");
-    // What the look-ahead costs is what an unlimited one saves.
+    // An unlimited look-ahead saves the time that the short one costs.
     assert!((short.0 - short.1 - longest.0).abs() < 1e-4 && longest.1 < 1e-6, "{short:?} {longest:?}");
 }
 
@@ -198,7 +198,7 @@ fn info_tells_the_time_on_the_controller_of_a_profile_that_has_one() {
         let times = [&row["files"][0], &written["controller"]].map(|of| of["time_s"].as_f64().expect("seconds"));
         assert!((times[0] - times[1]).abs() < 1e-4, "{name}: {times:?}");
     }
-    // What the target refuses has no time there, and is no fault of the file.
+    // A job that the target refuses has no time there, and no fault.
     let known = json("info pocket.cut --set gcode.letter=A --set knife.follow=chord --time --format json");
     assert!(known["controller"].is_null() && known["time_s"].as_f64().is_some());
     let known = json("info pocket.cut --time --format json");

@@ -94,7 +94,7 @@ fn questions_end_with_a_profile_and_a_trial() {
     assert_eq!((own.knife.width_mm, own.knife.back(), own.knife.feed_mm_s), (3.0, 1.5, Some(200.0)));
     assert_eq!((own.table.x_mm, own.table.y_mm), (Some([0.0, 1800.0]), Some([0.0, 1200.0])));
     assert!(own.c.reverse && own.knife.plunge_ms == 60.0 && own.knife.lift_ms == 50.0);
-    // What was not asked is that of the controller.
+    // Values that were not asked for are those of the controller.
     assert_eq!((own.value("gcode.letter"), own.gcode.decimals), (Some("A".into()), 5));
     room.expect("verify own-trial.ngc --source own-trial.cut -p own.toml --set sheet.origin=corner", DONE);
 }

@@ -260,7 +260,7 @@ impl<'a> Program<'a> {
                 let turned = piece.to.c.0 - from.c.0;
                 let feed = Feed { speed: piece.speed.min(best), limit: Limit::Feed };
                 let feed = feed.or(fastest).or(self.followed(piece.length, turned));
-                self.plan(piece.to, piece.length, turn, feed, Some(-away));
+                self.plan(piece.to, piece.length, feed, Some((turn, -away)));
                 self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
                 self.word(b'J', away.y);
@@ -286,7 +286,7 @@ impl<'a> Program<'a> {
                     let feed = feed.or(fastest).or(self.followed(length, turned));
                     self.number();
                     self.text.extend_from_slice(b"G1");
-                    self.plan(to, length, 0.0, feed, None);
+                    self.plan(to, length, feed, None);
                     self.axes_of_cut(to);
                     self.push_feed(feed.speed, length, turned);
                 }
@@ -294,13 +294,14 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// Accounts for a move with the knife down: its length, turn and speed, and for an arc the vector from its centre to its
-    /// start.
-    fn plan(&mut self, to: Pose, length: f64, turn: f64, feed: Feed, arm: Option<Vector>) {
+    /// Accounts for a move with the knife down: its length and speed, and for an arc its turn, rad, and the vector from its
+    /// centre to its start.
+    fn plan(&mut self, to: Pose, length: f64, feed: Feed, arc: Option<(f64, Vector)>) {
         self.moves += 1;
         self.stands = false;
         let way = to.centre - self.pose.centre;
-        let along = arm.map_or(way, |arm| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();
+        let turn = arc.map_or(0.0, |(turn, _)| turn);
+        let along = arc.map_or(way, |(_, arm)| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();
         let (sin, cos) = turn.sin_cos();
         let end = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos);
         self.planner.go(&Move {
@@ -308,7 +309,7 @@ impl<'a> Program<'a> {
             length,
             feed,
             along: [along, end],
-            curvature: if arm.is_some() { turn / length } else { 0.0 },
+            curvature: arc.map_or(0.0, |(turn, _)| turn / length),
         });
     }
 

@@ -1,4 +1,4 @@
-//! What a planner is given: moves and steps, in the order of the program.
+//! Input of a planner: moves and steps, in the order of the program.
 
 use crate::back::target::{Limit, Spent};
 use crate::geom::Vector;

@@ -237,7 +237,7 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     match limit {
         Some(limit) => {
             table::number(out, &shown(limit), limit);
-            // What the rounding of the rows adds to a limit is allowed.
+            // The limit with the rounding of the rows, which is allowed.
             let share = if limit > 0.0 { PERCENT * worst / allowed.unwrap_or(limit) } else { 0.0 };
             let words = if limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
             table::number(out, &words, share);
