@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Measures how a page plays in Chromium: `tests/bench/player.py PAGE`. Needs Linux, and the page of `cutc compile -t html`.
 
-Opening: from the call to the drawn cloth, in a browser that has started. Memory: of the process that holds the page.
-Drawing: the whole marker at its end anew, and frames a second while the cloth is moved.
+Opening: from the call to the drawn cloth, in a browser that has started. Drawing: the whole marker at its end anew, and
+frames a second while the cloth is moved. Memory: of the process that holds the page, at the end of all this.
 """
 
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 import time
@@ -26,17 +27,20 @@ def renderer_mb(browser):
     return max(int(re.match(r"\s*(\d+)", line)[1]) for line in own) / 1024
 
 
+def opening_s(page):
+    """Time from the call to the drawn cloth, in a browser that has opened nothing yet, s."""
+    with Browser("chromium") as browser:
+        start = time.perf_counter()
+        browser.open(page)
+        return time.perf_counter() - start
+
+
 def main(page):
     """All figures of a page."""
+    print(f"page      {pathlib.Path(page).stat().st_size / 1e6:.1f} MB")
+    print(f"opened in {statistics.median(opening_s(page) for _ in range(5)):.2f} s (median of 5)")
     with Browser("chromium") as browser:
-        opened = []
-        for _ in range(5):
-            browser.call("Page.navigate", url="about:blank")
-            start = time.perf_counter()
-            browser.open(page)
-            opened.append(time.perf_counter() - start)
-        print(f"page      {pathlib.Path(page).stat().st_size / 1e6:.1f} MB")
-        print(f"opened in {sorted(opened)[2]:.2f} s (median of 5)")
+        browser.open(page)
         browser.evaluate("cutc.player.seek(cutc.motion.end)")
         browser.settle()
         anew = browser.evaluate("""(() => {

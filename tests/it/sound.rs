@@ -13,6 +13,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("barbs.cut", LONG_OVERLAPS),      // a long overlap along an edge and through a barb
     ("bay.cut", ""),                   // a bay narrower than the blade
     ("bends.cut", "knife.max_down_mm=100"), // a lift in a bend that is followed
+    ("box-in-overlap.cut", ""),        // a wall of a box whose edge goes on nearly straight, within another part
     ("castles.cut", NO_OVERLAPS),      // overlaps of one tolerance, written with six decimals
     ("corner-on-edge.plt", "--cut-all"), // a corner on an edge that it leaves by 7 degrees
     ("crossed-earlier.plt", "--cut-all"), // two cuts beside an edge that cross before the one ends

@@ -29,6 +29,15 @@ pub struct BladePlacement {
     pub overcut: [Overcut; 2],
 }
 
+/// Straight continuation of a line beyond the start and the end of a run: the blade may lie on it, because it is cut anyway.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Continuation {
+    /// Lengths before the start and behind the end, mm.
+    pub straight: [f64; 2],
+    /// True if run and continuation together are as long as the blade: all of its surplus lies on the line.
+    pub takes_all: bool,
+}
+
 impl BladePlacement {
     /// Placement on an open run with overlaps of these lengths at its start and its end, mm; `None` if the blade has room to
     /// move between plunge and lift.
@@ -37,12 +46,16 @@ impl BladePlacement {
     /// past the end if only the start may have no overlap. Surplus that finds no room there is placed where its deepest place
     /// is least deep in any part.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
-        Self::along_line(run, overlaps, [0.0; 2], around)
+        Self::along_line(run, overlaps, Continuation::default(), around)
     }
 
-    /// Placement where the line continues straight by `continued` mm before its start and behind its end: the surplus lies
-    /// there first, since that is cut anyway.
-    pub fn along_line(run: &Run, overlaps: [f64; 2], continued: [f64; 2], around: &Surroundings) -> Option<Self> {
+    /// Placement on a run whose line goes on straight: where that takes all of the surplus, it lies there.
+    pub fn along_line(
+        run: &Run,
+        overlaps: [f64; 2],
+        Continuation { straight, takes_all }: Continuation,
+        around: &Surroundings,
+    ) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
         if width == 0.0 || Plunge::at_start(&path, width).has_way(&path, around.least_way) {
@@ -60,13 +73,13 @@ impl BladePlacement {
         let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
         let rooms = rays.each_ref().map(|ray| around.room(ray));
         let order = if run.ends[0].bare && !run.ends[1].bare { [1, 0] } else { [0, 1] };
-        let before = surplus.min(continued[0]);
-        let on_line = [before, (surplus - before).min(continued[1])];
+        let before = surplus.min(straight[0]);
+        let on_line = if takes_all { [before, (surplus - before).min(straight[1])] } else { [0.0; 2] };
         let rest = surplus - on_line[0] - on_line[1];
         let rooms = [0, 1].map(|end| rooms[end].without(on_line[end]));
         let (shared, left) = shared(rest, order.map(|end| rooms[end]), around.knife.clearance_mm);
         let (mut shares, mut overcut) = ([0, 1].map(|end| on_line[end] + shared[order[end]]), [Overcut::default(); 2]);
-        let surplus = Surplus { length: surplus, overlaps, rays, around };
+        let surplus = Surplus { length: surplus, overlaps, straight, rays, around };
         // A line that ends in another part is drawn there: nothing blocks a way further into that part, but it is deep.
         if left > 0.0 || surplus.is_deep(shares) {
             (shares, overcut) = surplus.placed(shares);
@@ -101,6 +114,8 @@ struct Surplus<'a> {
     length: f64,
     /// Overlaps before it at either end, mm.
     overlaps: [f64; 2],
+    /// Stretches at either end that are cut anyway, mm.
+    straight: [f64; 2],
     /// Rays beyond the two ends of the line.
     rays: [Ray; 2],
     around: &'a Surroundings<'a>,
@@ -112,10 +127,12 @@ impl Surplus<'_> {
         (0..2).any(|end| self.depths(end, shares[end]).deepest() > 0.0)
     }
 
-    /// Depth of the blade at a distance beyond an overlap.
+    /// Depth of the blade at a distance beyond an overlap. None on the straight continuation of its line; behind that, at most
+    /// the distance from it.
     fn depths(&self, end: usize, way: f64) -> Overcut {
         let Ray { from, along, .. } = self.rays[end];
-        self.around.depths(from + along * way, self.overlaps[end] + way)
+        let beyond = self.overlaps[end] + way - self.straight[end];
+        if beyond <= 0.0 { Overcut::default() } else { self.around.depths(from + along * way, beyond) }
     }
 
     /// Greatest depth of the blade from an overlap to `way` mm beyond it. Depth is Lipschitz: it changes between two places by

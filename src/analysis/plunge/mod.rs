@@ -11,6 +11,6 @@ mod deviation;
 mod overlaps;
 
 pub use blade::{PASSING_SHARE, Plunge, stands_across};
-pub use cut::BladePlacement;
+pub use cut::{BladePlacement, Continuation};
 pub use deviation::{Deviation, Leeway, REACH, WORTH_SHARE};
 pub use overlaps::{Overlap, heel_share, overlaps};

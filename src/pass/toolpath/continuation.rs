@@ -3,23 +3,24 @@
 
 use super::spare::drawn;
 use crate::analysis::cloth::Surroundings;
+use crate::analysis::plunge::Continuation;
 use crate::geom::{Point, Vector, cross, polyline};
 use crate::ir::toolpath::{Run, Side, Step};
 
 /// Shortfall of a straight stretch against the blade that lies on it, in tolerances: one at either end, one for where it bends.
 const SHORT: f64 = 3.0;
 
-/// Straight continuations of the line before the start and behind the end of a run, mm. Both are 0 if the run is longer than
-/// the blade, or if run and continuations together are shorter than it. `step` is the index of the run.
-pub(super) fn continuations(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> [f64; 2] {
+/// Straight continuation of the line before the start and behind the end of a run; none if the run is longer than the blade.
+/// `step` is the index of the run.
+pub(super) fn continuation(steps: &[Step], step: usize, run: &Run, around: &Surroundings) -> Continuation {
     let width = around.knife.width_mm;
     let ends = [run.points[0], run.points[run.points.len() - 1]];
-    let Some(along) = polyline::direction(ends[0], ends[1]) else { return [0.0; 2] };
+    let Some(along) = polyline::direction(ends[0], ends[1]) else { return Continuation::default() };
     let length = polyline::length(&run.points);
     if length > width {
-        return [0.0; 2];
+        return Continuation::default();
     }
-    let beyond = [0, 1].map(|end| {
+    let straight = [0, 1].map(|end| {
         if run.ends[end].side != Side::Contour {
             return 0.0;
         }
@@ -27,8 +28,8 @@ pub(super) fn continuations(steps: &[Step], step: usize, run: &Run, around: &Sur
         let is_before = (end == 0) != run.turned;
         band.straight(points_from(steps, step, is_before), width - length)
     });
-    let is_long = beyond[0] + length + beyond[1] >= width - SHORT * around.tolerance;
-    if is_long { beyond } else { [0.0; 2] }
+    let takes_all = straight[0] + length + straight[1] >= width - SHORT * around.tolerance;
+    Continuation { straight, takes_all }
 }
 
 /// Points of the strokes before or behind a step, leading away from it, as long as each stroke starts where the previous one

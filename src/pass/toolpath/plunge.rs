@@ -6,7 +6,7 @@
 //! Plunges of a nibbled curve that cut nothing new are omitted. A surplus in its own part gives a warning, one in other
 //! parts another; either is an error where the profile does not allow it.
 
-use super::continuation::continuations;
+use super::continuation::continuation;
 use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::spare;
@@ -33,8 +33,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     for i in 0..toolpath.steps.len() {
         let Step::Run(run) = &toolpath.steps[i] else { continue };
         if run.shape == Shape::Open {
-            let beyond = continuations(&toolpath.steps, i, run, &around);
-            if let Some(cut) = BladePlacement::along_line(run, [run.heel, run.front], beyond, &around) {
+            let continued = continuation(&toolpath.steps, i, run, &around);
+            if let Some(cut) = BladePlacement::along_line(run, [run.heel, run.front], continued, &around) {
                 toolpath.steps[i] = Step::PlungeCut(plunge_cut(run, &cut, &around));
             }
         }

@@ -45,7 +45,8 @@ function clock(seconds, decimals) {
 
 /** Bytes behind base64 and deflate. @param {string} text @returns {Promise<Uint8Array>} */
 async function unpack(text) {
-  const packed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
+  const letters = atob(text.trim()), packed = new Uint8Array(letters.length);
+  for (let i = 0; i < packed.length; i++) packed[i] = letters.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
