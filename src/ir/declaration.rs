@@ -90,6 +90,14 @@ impl Kind {
 }
 
 impl Kind {
+    /// True if the blade leaves the drawn line, by the size of the deviation.
+    pub fn is_off(self) -> bool {
+        match self {
+            Self::Overcut | Self::Plunge | Self::Surplus | Self::Swing => true,
+            Self::Shortened | Self::Nibbled | Self::Lift => false,
+        }
+    }
+
     /// Meaning of the kind and of its size, in a sentence for people.
     pub fn about(self) -> &'static str {
         match self {
@@ -103,8 +111,10 @@ impl Kind {
             Self::Plunge => "the straight blade goes down on a curve; the size is how far it stands beside the line.",
             Self::Surplus => "the blade is longer than a short cut; the size is how deep its end goes into the part.",
             Self::Swing => "the heel leaves the line behind a bend; the size is how far.",
-            Self::Nibbled => "a tight curve is cut by plunges without motion; the size is the length of one. No harm.",
-            Self::Lift => "the knife is lifted and goes down again where the drawing has no end. No harm.",
+            Self::Nibbled => {
+                "a tight curve is cut by plunges without motion; the size is the length of one, not how far it is off."
+            }
+            Self::Lift => "the knife is lifted and goes down again where the drawing has no end.",
         }
     }
 }

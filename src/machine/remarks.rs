@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::units::S_PER_HOUR;
 use crate::units::number::fixed;
 
 /// Date, and costs of the machine.
@@ -25,6 +26,8 @@ pub struct Price {
 /// Costs of a marker, as amounts of money.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Costs {
+    /// Price of an hour.
+    pub hour: f64,
     /// Number of plies.
     pub plies: u32,
     /// Cost of all plies.
@@ -40,15 +43,21 @@ impl Price {
     pub fn costs(&self, time_s: f64, pieces: usize) -> Costs {
         let marker = time_s * self.per_s;
         let ply = marker / f64::from(self.plies);
-        Costs { plies: self.plies, marker, ply, part: (pieces > 0).then(|| ply / pieces as f64) }
+        Costs {
+            hour: self.per_s * S_PER_HOUR,
+            plies: self.plies,
+            marker,
+            ply,
+            part: (pieces > 0).then(|| ply / pieces as f64),
+        }
     }
 }
 
 impl fmt::Display for Costs {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { plies, marker, ply, part } = *self;
+        let Self { hour, plies, marker, ply, part } = *self;
         let of = if plies == 1 { "1 ply".to_owned() } else { format!("{plies} plies") };
-        write!(f, "{} for {of}: {} a ply", fixed(marker, 2), fixed(ply, 3))?;
+        write!(f, "{} at {}/h for {of}: {} a ply", fixed(marker, 2), fixed(hour, 2), fixed(ply, 3))?;
         part.map_or(Ok(()), |part| write!(f, ", {} a part", fixed(part, 4)))
     }
 }
@@ -62,7 +71,7 @@ mod tests {
         let price = Price { per_s: 0.01, plies: 10 };
         let costs = price.costs(500.0, 4);
         assert_eq!((costs.marker, costs.ply, costs.part), (5.0, 0.5, Some(0.125)));
-        assert_eq!(costs.to_string(), "5.00 for 10 plies: 0.500 a ply, 0.1250 a part");
+        assert_eq!(costs.to_string(), "5.00 at 36.00/h for 10 plies: 0.500 a ply, 0.1250 a part");
         assert_eq!(price.costs(0.0, 0).part, None);
     }
 }

@@ -6,7 +6,7 @@ use crate::back::target::{Context, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::geom::Point;
 use crate::ir::Finding;
-use crate::ir::declaration::Declaration;
+use crate::ir::declaration::{Declaration, Kind};
 use crate::machine::file_name;
 use crate::units::number;
 
@@ -68,11 +68,24 @@ impl About<'_> {
         findings
     }
 
-    /// Declared deviations, the greatest first.
+    /// Declared deviations: those first by which the blade leaves the drawing, the greatest first. Where there are too many,
+    /// of each kind the greatest.
     pub(super) fn deviations(&self) -> Vec<Declaration> {
+        let worst_first = |a: &Declaration, b: &Declaration| {
+            b.kind.is_off().cmp(&a.kind.is_off()).then(b.size_mm().total_cmp(&a.size_mm()))
+        };
         let mut entries = self.outcome.deviations.to_vec();
-        entries.sort_by(|a, b| b.size_mm().total_cmp(&a.size_mm()));
-        entries.truncate(MOST_MARKS);
+        entries.sort_by(worst_first);
+        let mut counts = [0; Kind::ALL.len()];
+        let ranked = entries.into_iter().map(|entry| {
+            let rank = &mut counts[entry.kind as usize];
+            *rank += 1;
+            (*rank, entry)
+        });
+        let mut ranked: Vec<(usize, Declaration)> = ranked.collect();
+        ranked.sort_by_key(|(rank, _)| *rank);
+        let mut entries: Vec<Declaration> = ranked.into_iter().take(MOST_MARKS).map(|(_, entry)| entry).collect();
+        entries.sort_by(worst_first);
         entries
     }
 

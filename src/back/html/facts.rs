@@ -22,6 +22,7 @@ pub(super) fn facts(about: &About, classes: &[&str]) -> Value {
         "peak_ticks": record.peaks.ticks(),
         "knife": { "width_mm": rounded(knife.width_mm), "tip_mm": rounded(knife.radius()), "heel_mm": rounded(knife.back()) },
         "limits": { "cut": cut, "travel": travel },
+        "has_common": !context.marker.common.is_empty(),
         "extent": corners(&context.marker.extent()),
         "aside": classes,
         "pieces": pieces.iter().map(piece).collect::<Value>(),

@@ -42,7 +42,7 @@ impl Found {
             spoils: spoiling.map(|(_, count)| count).sum(),
             told: first.map(told).unwrap_or_default(),
             hint: first.and_then(|finding| finding.hints.first().cloned()).unwrap_or_default(),
-            more: others.take(MOST_MORE).map(told).collect(),
+            more: others.take(MOST_MORE).map(advised).collect(),
         }
     }
 }
@@ -53,6 +53,12 @@ fn told(finding: &Diagnostic) -> String {
     let block = finding.span.filter(|span| span.block > 0).map(|span| format!("block {}", span.block));
     let place: Vec<String> = piece.into_iter().chain(block).collect();
     if place.is_empty() { finding.message.clone() } else { format!("{}: {}", place.join(", "), finding.message) }
+}
+
+/// A message with its code and its first hint.
+fn advised(finding: &Diagnostic) -> String {
+    let hint = finding.hints.first().map(|hint| format!("; {hint}"));
+    format!("{} `{}`{}", told(finding), finding.code.name, hint.unwrap_or_default())
 }
 
 /// The code of the worst finding, for a row.

@@ -316,7 +316,7 @@ impl<'a> Blocks<'a> {
 fn remedy(byte: Option<u8>) -> &'static str {
     match byte {
         None => "the file is most likely cut short; export it again",
-        Some(b'A'..=b'Z') => "a block end `*` may be missing before it",
+        Some(b'A'..=b'Z') => "a block end `*` may be missing before it, or a sign before it is spoilt",
         Some(b'e') => "if it is an exponent, write 1000 and not 1e3; codes are capital letters",
         Some(b'a'..=b'z') => "codes are capital letters; a text stands behind M31 or M20 in a block of its own",
         Some(b'0'..=b'9' | b'+' | b'-' | b'.') => "a letter may be missing before this number, or a digit was doubled",

@@ -72,7 +72,7 @@ impl<'a> Report<'a> {
             let (radius, more) = (fixed(size, 2), self.curves.and_more());
             let message =
                 format!("a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}");
-            diagnostics.push(Diagnostic::new(code, message).at(span).hint(hint));
+            diagnostics.push(Diagnostic::new(code, message).at(span).by(self.swing(size)).hint(hint));
         }
         if let Some(&Seen { size, span, treatment }) = self.starts.place() {
             let Words { code, done, hint } = self.about_start(treatment);
@@ -90,8 +90,13 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// Distance of the heel from a curve that it follows along the tangent, mm.
+    fn swing(&self, radius: f64) -> f64 {
+        radius.hypot(self.knife.width_mm) - radius
+    }
+
     fn about_curve(&self, radius: f64, treatment: Treatment) -> Words {
-        let swing = fixed(radius.hypot(self.knife.width_mm) - radius, 2);
+        let swing = fixed(self.swing(radius), 2);
         let followed = |done: String| Words {
             code: &code::PATH_TIGHT_CURVE,
             done,

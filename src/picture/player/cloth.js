@@ -270,17 +270,12 @@ class Cloth {
   /** @param {CanvasRenderingContext2D} to */
   drawMarks(to) {
     const { view } = this, { broken, warned, declared } = this.motion.facts;
-    to.strokeStyle = themed("declared");
-    to.lineWidth = 1.2;
     // Many of them would hide the cloth: they grow with it.
     const arm = Math.min(4, Math.max(1.5, 5 * view.scale));
     for (const [x, y] of declared) {
       if (!view.sees([x, y, x, y])) continue;
-      const px = view.px(x), py = view.py(y);
-      to.beginPath();
-      for (const [dx, dy] of [[arm, 0], [0, arm], [-arm, 0], [0, -arm]]) to.lineTo(px + dx, py + dy);
-      to.closePath();
-      to.stroke();
+      const px = view.px(x), py = view.py(y), low = py + arm;
+      drawLine(to, [[px, low], [px + arm, py], [px, py - arm], [px - arm, py], [px, low]], "declared", 1.2);
     }
     for (const [x, y] of warned) drawRing(to, [view.px(x), view.py(y)], 2 * arm, "warn", 1.5);
     for (const [x, y] of broken) drawRing(to, [view.px(x), view.py(y)], 12, "bad", 2.5);
@@ -332,10 +327,7 @@ class Cloth {
     to.fillStyle = themed(down ? "bad" : "paper");
     to.fill();
     to.stroke();
-    to.beginPath();
-    to.moveTo(13, 0);
-    to.lineTo(19, 0);
-    to.stroke();
+    drawLine(to, [[13, 0], [19, 0]], down ? "bad" : "ink", 1.2);
     to.beginPath();
     to.arc(0, 0, 1.6, 0, 2 * Math.PI);
     to.fillStyle = themed(down ? "paper" : "ink");

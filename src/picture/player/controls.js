@@ -7,6 +7,8 @@ const WORDS = [
   "rest at the end", "wait for the knife to be up", "travel", "turn", "plunge", "cut", "lift", "stop of the file",
   "cloth is moved on",
 ];
+/** Rows of rules that hold: their places are no faults. */
+const KEPT = ".holds, .reported";
 /** Buttons that do what a key does. */
 const BUTTONS = {
   cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight", piece_before: "Shift+ArrowLeft",
@@ -41,7 +43,7 @@ class Player extends Stage {
   /** @param {number} elapsed */
   draw(elapsed) {
     this.tick = Math.min(this.motion.end, this.tick + elapsed / this.motion.period);
-    if (elapsed > 0) this.isAside = false;
+    if (elapsed > 0) this.leave();
     if (this.playing && this.tick >= this.motion.end) this.play(false);
     if (this.following) this.follow();
     this.cloth.draw(this.tick);
@@ -59,8 +61,14 @@ class Player extends Stage {
   /** Goes to a tick. @param {number} tick */
   seek(tick) {
     this.tick = Math.min(this.motion.end, Math.max(0, tick));
-    this.isAside = false;
+    this.leave();
     this.wake();
+  }
+
+  /** Forgets what was said of the place that was gone to. */
+  leave() {
+    this.isAside = false;
+    this.say("found", "");
   }
 
   /**
@@ -84,13 +92,16 @@ class Player extends Stage {
     markRow(part);
     const { motion } = this, { phase_part } = motion.columns, { pieces } = motion.facts;
     const sections = motion.pieces.filter(phase => pieces[phase_part[phase]]?.whole === part);
-    const begins = sections.map(phase => {
-      const { window } = pieces[phase_part[phase]], from = `from ${motion.clock(motion.start(phase), 1)} on`;
-      return window === null ? from : `${from} in window ${window + 1}`;
+    const times = sections.map(phase => {
+      const section = phase_part[phase], { window } = pieces[section];
+      const next = phase_part.findIndex((of, i) => i > phase && of !== section);
+      const time = [phase, next].map(at => motion.clock(motion.start(at) ?? motion.end, 1)).join(" to ");
+      return window === null ? time : `${time} in window ${window + 1}`;
     });
-    const told = `${named(pieces[part])} is ${begins.length ? "cut " : "not cut"}${begins.join(", ")}`;
-    this.say("found", part < 0 ? "no piece lies there" : `${told}; its row in the table is marked`);
     if (sections.length > 0 && show) this.seek(motion.start(sections[0]));
+    const told = `${named(pieces[part])} is ${times.length ? "cut from " : "not cut"}${times.join(", ")}`;
+    const shared = times.length && motion.facts.has_common ? "; edges in common with others may be cut with those" : "";
+    this.say("found", part < 0 ? "no piece lies there" : `${told}${shared}; its row in the table is marked`);
     const box = pieces[part]?.extent;
     if (box && show) this.show(box);
     this.wake();
@@ -112,12 +123,12 @@ class Player extends Stage {
     this.jump = button ?? this.jump;
     const x = Number(at.x), y = Number(at.y);
     this.cloth.spot = [x, y];
-    this.say("found", told);
     const { motion } = this, near = 40;
     this.show([x - near, y - near, x + near, y + near]);
     const tick = time === undefined ? motion.passing(this.cloth.trail, [x, y], Number(part))
       : Number(time) / motion.period;
     if (tick !== null) this.seek(tick);
+    this.say("found", told);
     this.isAside = tick === null;
     // What the blade does not pass may be a line that is not cut.
     if (this.isAside && !this.cloth.shown.aside) element("aside", HTMLInputElement).click();
@@ -127,7 +138,7 @@ class Player extends Stage {
 
   /** Goes to the place of the report after or before the last one. @param {number} by 1 or -1. */
   nextPlace(by) {
-    const buttons = [...jumps()].filter(button => button.checkVisibility());
+    const buttons = [...jumps()].filter(button => button.checkVisibility() && !button.closest(KEPT));
     const from = this.jump ? buttons.indexOf(this.jump) : Math.min(0, -by);
     buttons.at((from + by) % buttons.length)?.click();
   }

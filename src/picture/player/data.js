@@ -17,6 +17,7 @@
  * @property {number} peak_ticks
  * @property {{width_mm: number, tip_mm: number, heel_mm: number}} knife
  * @property {{cut: number[][], travel: number[][]}} limits Speed, acceleration and jerk of X, Y (mm) and C (degrees).
+ * @property {boolean} has_common Whether edges are cut once for two pieces.
  * @property {Box | null} extent
  * @property {string[]} aside
  * @property {Piece[]} pieces

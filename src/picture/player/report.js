@@ -2,6 +2,8 @@
 
 /** Rows from which on a table is searched. */
 const MANY_ROWS = 10;
+/** What of a row is searched: texts, marks, and codes of messages. Their words name other pieces. */
+const SEARCHED = "td:not(.number, .count), .marks, .count code";
 
 /**
  * Value of a cell to sort by: its number, or its text.
@@ -37,8 +39,7 @@ function makeSortable() {
         const down = before ? before === "ascending" : isNumber;
         heads.forEach(other => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", down ? "descending" : "ascending");
-        const rows = [...body.rows].toSorted((a, b) => byColumn(a, b, column) * (down ? -1 : 1));
-        body.append(...rows);
+        body.append(...[...body.rows].toSorted((a, b) => byColumn(a, b, column) * (down ? -1 : 1)));
       });
     });
     if (body.rows.length >= MANY_ROWS) table.parentElement?.before(searchField(body));
@@ -53,8 +54,8 @@ function searchField(body) {
     // A number belongs to the word before it, and is meant as a whole.
     const words = plain(field.value).match(/\S+(\s\d+)?/g)?.map(word => word.replace(/^(?=\d)|(?<=\d)$/g, " ")) ?? [];
     for (const row of body.rows) {
-      const cells = [...row.cells].filter(cell => !cell.matches(".number,.count"));
-      const text = plain(cells.map(cell => `${cell.dataset.name ?? ""} ${cell.textContent}`).join(" "));
+      const cells = /** @type {NodeListOf<HTMLElement>} */ (row.querySelectorAll(SEARCHED));
+      const text = plain([...cells].map(cell => `${cell.dataset.name ?? ""} ${cell.textContent}`).join(" "));
       row.hidden = !words.every(word => text.includes(word));
     }
   });

@@ -91,17 +91,41 @@ fn to_do(worth: Worth, is_harm: bool) -> &'static str {
     }
 }
 
-/// Part in which a deviation lies, by its index.
-fn into(entry: &Declaration) -> Option<u32> {
-    entry.part.or(entry.within)
+/// Name of the part in which a deviation lies, as the page has it; `None` if it lies in none.
+fn part_of(about: &About, entry: &Declaration, piece: &Piece) -> Option<String> {
+    let part = about.pieces.get(entry.part.or(entry.within)? as usize)?;
+    Some(if part.whole == piece.whole { "its own part".to_owned() } else { part.title() })
 }
 
-/// Line on declared deviations that lie in parts.
-fn entered(about: &About, out: &mut Markup) {
-    let within = about.outcome.deviations.iter().filter(|entry| into(entry).is_some() && entry.size_mm() > 0.0);
-    let Some(deepest) = within.map(Declaration::size_mm).reduce(f64::max) else { return };
-    let words = format!("The blade goes into parts by up to {} mm, as declared: ", fixed(deepest, 2));
-    out.open("p", &[]).text(&words).element("a", &[("href", "#deviations")], "where").close("p");
+/// The piece with whose cut a deviation comes.
+fn piece_of<'a>(about: &About<'a>, entry: &Declaration) -> &'a Piece {
+    &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize]
+}
+
+/// A deviation in words: its size, and where the blade is with the cut of which piece.
+fn off(about: &About, entry: &Declaration) -> String {
+    let piece = piece_of(about, entry);
+    let place = part_of(about, entry, piece).map_or_else(|| "beside its line".to_owned(), |part| format!("in {part}"));
+    format!("{} mm {place} with a cut of {}", fixed(entry.size_mm(), 2), piece.title())
+}
+
+/// Lines on the deepest place in a part and on the farthest beside a line, of the declared deviations.
+fn farthest(about: &About, out: &mut Markup) {
+    let entries = about.deviations();
+    let entries = || entries.iter().filter(|entry| entry.kind.is_off() && entry.size_mm() > 0.0);
+    let is_in = |entry: &&Declaration| entry.part.or(entry.within).is_some();
+    let worst = [entries().find(is_in), entries().find(|entry| !is_in(entry))];
+    if entries().next().is_none() {
+        return;
+    }
+    out.open("p", &[("class", "farthest")]).text("Farthest from the drawing, as ");
+    out.element("a", &[("href", "#deviations")], "declared").text(": ");
+    for (i, entry) in worst.into_iter().flatten().enumerate() {
+        let words = off(about, entry);
+        out.text(if i > 0 { "; " } else { "" }).text(&words).text(" ");
+        jump(out, Point::from(entry.at_mm), Moment::During(piece_of(about, entry).whole), &words);
+    }
+    out.close("p");
 }
 
 /// The section of errors and warnings, grouped by code.
@@ -110,7 +134,7 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
     let is_harm = groups.iter().any(|group| spoils(group.code));
     out.element("p", &[], to_do(about.worth(), is_harm));
-    entered(about, out);
+    farthest(about, out);
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
@@ -118,7 +142,10 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
         };
         let count = counted(messages.len(), severity);
         let harm = if spoils(code) { "may spoil parts: " } else { "" };
-        let few = if messages.len() > MOST_MESSAGES { format!(" (the worst {MOST_MESSAGES})") } else { String::new() };
+        let few = match messages.len() {
+            0..=MOST_MESSAGES => String::new(),
+            _ => format!(" (the worst {MOST_MESSAGES}; the others stand with their pieces)"),
+        };
         out.open("p", &[("class", &format!("group {severity}"))]).element("strong", &[], &count).text(harm);
         out.element("code", &[], code.name).text(&few).close("p");
         out.open("p", &[("class", "about")]).prose(code.about).close("p");
@@ -173,13 +200,13 @@ fn printed(most: usize, count: usize, out: &mut Markup) {
 }
 
 /// A message with its piece.
-fn told(about: &About, message: &Diagnostic) -> String {
+pub(super) fn told(about: &About, message: &Diagnostic) -> String {
     let piece = title(about, message).map(|piece| format!("{piece}: "));
     piece.unwrap_or_default() + &message.message
 }
 
 /// The piece that a message names.
-fn piece<'a>(about: &About<'a>, message: &Diagnostic) -> Option<&'a Piece> {
+pub(super) fn piece<'a>(about: &About<'a>, message: &Diagnostic) -> Option<&'a Piece> {
     let name = message.piece.as_deref()?;
     about.pieces.iter().find(|piece| piece.is_called(name))
 }
@@ -232,13 +259,15 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
         _ => format!("{} {unit}", short(value)),
     };
     table::number(out, &shown(*worst), *worst);
+    // The limit with the rounding of the rows, which is allowed, and that of the profile.
     let allowed = *limit;
     let limit = allowed.map(|allowed| about.record.limit(rule.name, allowed));
-    match limit {
-        Some(limit) => {
-            table::number(out, &shown(limit), limit);
-            // The limit with the rounding of the rows, which is allowed.
-            let share = if limit > 0.0 { PERCENT * worst / allowed.unwrap_or(limit) } else { 0.0 };
+    match allowed.zip(limit) {
+        Some((allowed, limit)) => {
+            let rounding = if *worst > limit && finding.holds() { allowed - limit } else { 0.0 };
+            let more = if rounding > 0.0 { format!(" and {} of rounding", shown(rounding)) } else { String::new() };
+            table::number(out, &(shown(limit) + &more), limit);
+            let share = if limit > 0.0 { PERCENT * worst / allowed } else { 0.0 };
             let words = if limit > 0.0 && share.is_finite() { format!("{} %", fixed(share, 1)) } else { String::new() };
             table::number(out, &words, share);
         }
@@ -246,7 +275,7 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     }
     out.open("td", &[]);
     if let Some(place) = place.filter(|place| is_finite(place.point)) {
-        let limit = limit.map(|limit| format!(" of {}", shown(limit))).unwrap_or_default();
+        let limit = allowed.map(|allowed| format!(" of {}", shown(allowed))).unwrap_or_default();
         let mut words = format!("{}, {verdict} with {}{limit}: {}", rule.name, shown(*worst), rule.about);
         let is_here = |message: &&&Diagnostic| place_of(message).is_some_and(|at| is_one(at, place.point));
         let here = about.outcome.messages.iter().find(is_here).map(|message| format!(". {}", told(about, message)));
@@ -255,9 +284,6 @@ fn row(about: &About, finding: &Finding, out: &mut Markup) {
     }
     deepest(about, finding, out);
     out.close("td").open("td", &[]).prose(rule.about);
-    if let Some(allowed) = allowed.filter(|&allowed| limit.is_some_and(|limit| *worst > limit && *worst <= allowed)) {
-        advice(&format!("up to {} is the rounding of the printed rows", shown(allowed)), out);
-    }
     if !finding.holds() {
         for line in rule.more.lines().filter(|line| !line.trim().is_empty()) {
             advice(line.trim(), out);
@@ -320,28 +346,27 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "deviations")]).element("h2", &[], "Declared deviations from the drawing");
     let count = about.outcome.deviations.len();
     if count > entries.len() {
-        let words = format!("The {} greatest of {count}; the program's .meta.json has all.", entries.len());
+        let words =
+            format!("{} of {count}, of each kind the greatest; the program's .meta.json has all.", entries.len());
         out.element("p", &[], &words);
     }
     printed(PRINTED[1], count, out);
-    let kinds = Kind::ALL.into_iter().filter(|kind| entries.iter().any(|entry| entry.kind == *kind));
-    for kind in kinds {
-        let [one, _] = kind.words();
-        out.element("p", &[("class", "hint")], &format!("{one}: {}", kind.about()));
+    for Total { kind, count, worst_mm, .. } in about.outcome.declared {
+        let [one, many] = kind.words();
+        let name = if *count == 1 { one } else { many };
+        let words = format!("{count} {name}, at most {} mm: {}", fixed(*worst_mm, 2), kind.about());
+        out.element("p", &[("class", "hint")], &words);
     }
     let columns = ["Deviation", "Piece", "Into", "#Size, mm", "Where"];
     table::open(out, "sortable", &columns);
     for entry in entries {
         let mut cells = Cells::of(&columns, 0);
-        let piece = &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize];
+        let piece = piece_of(about, &entry);
         let [one, _] = entry.kind.words();
         out.open("tr", &[]);
         cells.text(one, &[], out);
         cells.text(&piece.title(), &[], out);
-        let into = into(&entry).and_then(|part| about.pieces.get(part as usize)).map(|part| match part.whole {
-            own if own == piece.whole => "its own part".to_owned(),
-            _ => part.title(),
-        });
+        let into = part_of(about, &entry, piece);
         let mut words = format!("{one}, {} mm: {}", fixed(entry.size_mm(), 3), piece.title());
         if let Some(into) = &into {
             words.extend([" into ", into]);

@@ -1,12 +1,13 @@
 //! Tables of the pieces and of the windows of a conveyor.
 
-use super::findings::to_place;
+use super::findings::{self, to_place};
 use super::table::{self, Cells};
 use super::totals::limit;
 use crate::analysis::waits::{Waits, waits};
 use crate::back::html::about::{About, clock};
 use crate::back::html::piece::Piece;
 use crate::back::html::record::Sums;
+use crate::diagnostic::Diagnostic;
 use crate::ir::motion::Bound;
 use crate::ir::toolpath::Event;
 use crate::picture::Markup;
@@ -82,7 +83,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     let span = columns.len();
     columns.push("#Lines, m");
     if has_time {
-        columns.extend(["#Cutting", "#Travel to it", "#Other", "#Time in all", "#Plunges", "Limited by"]);
+        columns.extend(["#Cutting", "#Travel", "#Other", "#Time in all", "#Plunges", "Limited by"]);
         let words = "Other: turning, plunging, lifting, drilling and waiting. Limited by: what most of the cutting is \
                      bound by. The totals are those of the tables of time.";
         let there = about.outcome.controller.map(|_| " All times are those of the motion that is played here.");
@@ -109,7 +110,8 @@ pub(super) fn section(about: &About, out: &mut Markup) {
             let names: Vec<String> = windows.clone().map(|window| (window + 1).to_string()).collect();
             cells.number(&names.join(", "), windows.min().unwrap_or(0) as f64, out);
         }
-        cells.number(&piece.marks.to_string(), piece.marks.total() as f64, out);
+        let total = piece.marks.total().to_string();
+        cells.text(&piece.marks.to_string(), &[("class", "number marks"), ("data-value", &total)], out);
         work(about, *cut, sums, &mut cells, out);
         if has_after {
             cells.text(after, &[], out);
@@ -135,7 +137,8 @@ fn messages(about: &About, piece: &Piece, cells: &mut Cells, out: &mut Markup) {
     cells.open(&[("class", "count"), ("data-value", &count.to_string())], out);
     out.open("details", &[]).element("summary", &[], &count.to_string()).open("ul", &[]);
     for message in piece.messages.iter().take(MOST_MESSAGES).map(|&message| about.outcome.messages[message]) {
-        out.open("li", &[]).prose(&message.message).text(" ").element("code", &[], message.code.name).text(" ");
+        out.open("li", &[]).prose(&words(about, piece, message)).text(" ");
+        out.element("code", &[], message.code.name).text(" ");
         to_place(about, message, out);
         out.close("li");
     }
@@ -144,6 +147,14 @@ fn messages(about: &About, piece: &Piece, cells: &mut Cells, out: &mut Markup) {
         out.element("p", &[], &format!("and {more} more"));
     }
     out.close("details").close("td");
+}
+
+/// A message in the row of a piece; one of another piece begins with that.
+fn words(about: &About, piece: &Piece, message: &Diagnostic) -> String {
+    match findings::piece(about, message) {
+        Some(other) if other.whole != piece.whole => findings::told(about, message),
+        Some(_) | None => message.message.clone(),
+    }
 }
 
 /// Cells of the work on a piece: metres, and what its time is spent on.

@@ -55,6 +55,14 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         ("Extent of the pieces", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
         ("Lines to cut", format!("{} m as they are drawn", metres(marker.cut_length()))),
     ];
+    if marker.spared > 0.0 {
+        let less = format!(
+            "{} m are cut once for two parts, {} m less",
+            metres(marker.common_length()),
+            metres(marker.spared)
+        );
+        rows.push(("Edges in common", less));
+    }
     rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
