@@ -424,7 +424,7 @@ def windows(browser):
     split = browser.evaluate("cutc.motion.facts.pieces.find((piece, i) => piece.whole !== i).whole")
     browser.evaluate(f"cutc.player.goToPiece({split}, false)")
     said = browser.evaluate("document.getElementById('found').textContent")
-    check(len(re.findall(r"from [^,]+ s on in window \d", said)) > 1, f"sections of a split piece: {said}")
+    check(len(re.findall(r"s to [^,]+ s in window \d", said)) > 1, f"sections of a split piece: {said}")
 
 
 def still(browser):

@@ -102,29 +102,27 @@ fn piece_of<'a>(about: &About<'a>, entry: &Declaration) -> &'a Piece {
     &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize]
 }
 
-/// A deviation in words: its size, and where the blade is with the cut of which piece.
-fn off(about: &About, entry: &Declaration) -> String {
-    let piece = piece_of(about, entry);
-    let place = part_of(about, entry, piece).map_or_else(|| "beside its line".to_owned(), |part| format!("in {part}"));
-    format!("{} mm {place} with a cut of {}", fixed(entry.size_mm(), 2), piece.title())
-}
-
 /// Lines on the deepest place in a part and on the farthest beside a line, of the declared deviations.
 fn farthest(about: &About, out: &mut Markup) {
     let entries = about.deviations();
-    let entries = || entries.iter().filter(|entry| entry.kind.is_off() && entry.size_mm() > 0.0);
-    let is_in = |entry: &&Declaration| entry.part.or(entry.within).is_some();
-    let worst = [entries().find(is_in), entries().find(|entry| !is_in(entry))];
-    if entries().next().is_none() {
-        return;
+    let off = || entries.iter().filter(|entry| entry.kind.is_off() && entry.size_mm() > 0.0);
+    let part = |entry: &Declaration| part_of(about, entry, piece_of(about, entry));
+    if let Some(entry) = off().find(|entry| part(entry).is_some()) {
+        reach(about, "Deepest in a part", part(entry).as_deref(), entry, out);
     }
-    out.open("p", &[("class", "farthest")]).text("Farthest from the drawing, as ");
-    out.element("a", &[("href", "#deviations")], "declared").text(": ");
-    for (i, entry) in worst.into_iter().flatten().enumerate() {
-        let words = off(about, entry);
-        out.text(if i > 0 { "; " } else { "" }).text(&words).text(" ");
-        jump(out, Point::from(entry.at_mm), Moment::During(piece_of(about, entry).whole), &words);
+    if let Some(entry) = off().find(|entry| part(entry).is_none()) {
+        reach(about, "Farthest beside its line, in no part", None, entry, out);
     }
+}
+
+/// Line on a deviation.
+fn reach(about: &About, name: &str, part: Option<&str>, entry: &Declaration, out: &mut Markup) {
+    let piece = piece_of(about, entry);
+    let size = fixed(entry.size_mm(), 2);
+    let into = part.map(|part| format!(" in {part}")).unwrap_or_default();
+    let words = format!("{name}: {size} mm{into}, with a cut of {}, as declared", piece.title());
+    out.open("p", &[("class", "group")]).text(&words).text(" ");
+    jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
     out.close("p");
 }
 
