@@ -7,8 +7,8 @@ const WORDS = [
   "rest at the end", "wait for the knife to be up", "travel", "turn", "plunge", "cut", "lift", "stop of the file",
   "cloth is moved on",
 ];
-/** Rows of rules that hold: their places are no faults. */
-const KEPT = ".holds, .reported";
+/** What is stepped through: messages and broken rules. */
+const STEPPED = "#messages, .broken";
 /** Buttons that do what a key does. */
 const BUTTONS = {
   cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight", piece_before: "Shift+ArrowLeft",
@@ -68,6 +68,7 @@ class Player extends Stage {
   /** Forgets what was said of the place that was gone to. */
   leave() {
     this.isAside = false;
+    this.cloth.spot = null;
     this.say("found", "");
   }
 
@@ -121,13 +122,12 @@ class Player extends Stage {
   goToPlace({ time, part = "-1", told = "", ...at }, button) {
     this.play(false);
     this.jump = button ?? this.jump;
-    const x = Number(at.x), y = Number(at.y);
-    this.cloth.spot = [x, y];
-    const { motion } = this, near = 40;
+    const x = Number(at.x), y = Number(at.y), { motion } = this, near = 15;
     this.show([x - near, y - near, x + near, y + near]);
     const tick = time === undefined ? motion.passing(this.cloth.trail, [x, y], Number(part))
       : Number(time) / motion.period;
     if (tick !== null) this.seek(tick);
+    this.cloth.spot = [x, y];
     this.say("found", told);
     this.isAside = tick === null;
     // What the blade does not pass may be a line that is not cut.
@@ -138,7 +138,7 @@ class Player extends Stage {
 
   /** Goes to the place of the report after or before the last one. @param {number} by 1 or -1. */
   nextPlace(by) {
-    const buttons = [...jumps()].filter(button => button.checkVisibility() && !button.closest(KEPT));
+    const buttons = [...jumps()].filter(button => button.checkVisibility() && button.closest(STEPPED));
     const from = this.jump ? buttons.indexOf(this.jump) : Math.min(0, -by);
     buttons.at((from + by) % buttons.length)?.click();
   }

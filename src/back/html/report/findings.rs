@@ -81,9 +81,10 @@ fn spoils(code: &Code) -> bool {
     code.severity == Severity::Warning && code.harm == Harm::Spoils
 }
 
-/// Advice on the program before it is run; `is_harm` tells of warnings that parts may be spoilt.
-fn to_do(worth: Worth, is_harm: bool) -> &'static str {
-    match (worth, is_harm) {
+/// Advice on the program before it is run.
+pub(super) fn to_do(about: &About) -> &'static str {
+    let is_harm = about.outcome.messages.iter().any(|message| spoils(message.code));
+    match (about.worth(), is_harm) {
         (Worth::Refused, _) => "No program was written. Mend the errors and compile again.",
         (Worth::NotJudged, _) => "The program is not verified. Verify it before you cut.",
         (Worth::Verified, true) => "Before you cut, look at the warnings of parts that may be spoilt.",
@@ -91,48 +92,25 @@ fn to_do(worth: Worth, is_harm: bool) -> &'static str {
     }
 }
 
-/// Name of the part in which a deviation lies, as the page has it; `None` if it lies in none.
-fn part_of(about: &About, entry: &Declaration, piece: &Piece) -> Option<String> {
-    let part = about.pieces.get(entry.part.or(entry.within)? as usize)?;
-    Some(if part.whole == piece.whole { "its own part".to_owned() } else { part.title() })
+/// Part in which a deviation lies; `None` if it lies in none.
+pub(super) fn into<'a>(about: &About<'a>, entry: &Declaration) -> Option<&'a Piece> {
+    about.pieces.get(entry.part.or(entry.within)? as usize)
 }
 
 /// The piece with whose cut a deviation comes.
-fn piece_of<'a>(about: &About<'a>, entry: &Declaration) -> &'a Piece {
+pub(super) fn piece_of<'a>(about: &About<'a>, entry: &Declaration) -> &'a Piece {
     &about.pieces[about.context.marker.cuts[entry.cut as usize].piece as usize]
 }
 
-/// Lines on the deepest place in a part and on the farthest beside a line, of the declared deviations.
-fn farthest(about: &About, out: &mut Markup) {
-    let entries = about.deviations();
-    let off = || entries.iter().filter(|entry| entry.kind.is_off() && entry.size_mm() > 0.0);
-    let part = |entry: &Declaration| part_of(about, entry, piece_of(about, entry));
-    if let Some(entry) = off().find(|entry| part(entry).is_some()) {
-        reach(about, "Deepest in a part", part(entry).as_deref(), entry, out);
-    }
-    if let Some(entry) = off().find(|entry| part(entry).is_none()) {
-        reach(about, "Farthest beside its line, in no part", None, entry, out);
-    }
-}
-
-/// Line on a deviation.
-fn reach(about: &About, name: &str, part: Option<&str>, entry: &Declaration, out: &mut Markup) {
-    let piece = piece_of(about, entry);
-    let size = fixed(entry.size_mm(), 2);
-    let into = part.map(|part| format!(" in {part}")).unwrap_or_default();
-    let words = format!("{name}: {size} mm{into}, with a cut of {}, as declared", piece.title());
-    out.open("p", &[("class", "group")]).text(&words).text(" ");
-    jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
-    out.close("p");
+/// Button that leads to the place of a deviation.
+pub(super) fn jump_to(about: &About, entry: &Declaration, words: &str, out: &mut Markup) {
+    jump(out, Point::from(entry.at_mm), Moment::During(piece_of(about, entry).whole), words);
 }
 
 /// The section of errors and warnings, grouped by code.
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
-    let is_harm = groups.iter().any(|group| spoils(group.code));
-    out.element("p", &[], to_do(about.worth(), is_harm));
-    farthest(about, out);
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
@@ -152,11 +130,21 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
             messages[0].hints.iter().filter(|hint| messages.iter().all(|message| message.hints.contains(hint)));
         let shared: Vec<&String> = shared.collect();
         printed(PRINTED[0], messages.len(), out);
+        let shown = messages.len().min(MOST_MESSAGES);
+        let (first, more) = messages[..shown].split_at(shown.min(PRINTED[0]));
         out.open("ol", &[("class", "messages")]);
-        for message in messages.into_iter().take(MOST_MESSAGES) {
+        for message in first {
             entry(about, message, &shared, out);
         }
         out.close("ol");
+        if !more.is_empty() {
+            out.open("details", &[]).element("summary", &[], &format!("{} more", more.len()));
+            out.open("ol", &[("class", "messages"), ("start", &(PRINTED[0] + 1).to_string())]);
+            for message in more {
+                entry(about, message, &shared, out);
+            }
+            out.close("ol").close("details");
+        }
         for hint in shared {
             advice(hint, out);
         }
@@ -167,7 +155,8 @@ pub(super) fn messages(about: &About, out: &mut Markup) {
 /// One message, with the hints that are not common to its group.
 fn entry(about: &About, message: &Diagnostic, shared: &[&String], out: &mut Markup) {
     out.open("li", &[]).open("span", &[]).prose(&message.message).close("span");
-    if let Some(title) = title(about, message) {
+    let several = (!message.pieces.is_empty()).then(|| listed(&message.pieces));
+    if let Some(title) = title(about, message).or(several) {
         out.text(" ").element("span", &[("class", "quiet")], &title);
     }
     out.text(" ");
@@ -364,7 +353,10 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         out.open("tr", &[]);
         cells.text(one, &[], out);
         cells.text(&piece.title(), &[], out);
-        let into = part_of(about, &entry, piece);
+        let into = into(about, &entry).map(|part| match part.whole {
+            own if own == piece.whole => "its own part".to_owned(),
+            _ => part.title(),
+        });
         let mut words = format!("{one}, {} mm: {}", fixed(entry.size_mm(), 3), piece.title());
         if let Some(into) = &into {
             words.extend([" into ", into]);
@@ -372,7 +364,7 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
         cells.text(&into.unwrap_or_default(), &[], out);
         cells.number(&fixed(entry.size_mm(), 3), entry.size_mm(), out);
         cells.open(&[], out);
-        jump(out, Point::from(entry.at_mm), Moment::During(piece.whole), &words);
+        jump_to(about, &entry, &words, out);
         out.close("td").close("tr");
     }
     table::close(out);

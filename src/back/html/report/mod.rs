@@ -3,6 +3,7 @@
 mod findings;
 mod lines;
 mod pieces;
+mod short;
 mod table;
 mod totals;
 
@@ -34,14 +35,21 @@ pub(super) fn body(about: &About) -> String {
     let class = if about.record.ticks() > 0 { "moving" } else { "still" };
     out.open("div", &[("class", class)]).markup(Script::Cutting.markup()).close("div");
     out.open("main", &[("id", "report")]);
+    short::section(about, &mut out);
     job(about, &mut out);
     totals::section(about, &mut out);
     lines::section(about, &mut out);
     findings::messages(about, &mut out);
-    findings::section(about, &mut out);
+    let is_broken = about.outcome.findings.iter().any(|finding| !finding.holds());
+    if is_broken {
+        findings::section(about, &mut out);
+    }
     pieces::section(about, &mut out);
     findings::deviations(about, &mut out);
     pieces::windows(about, &mut out);
+    if !is_broken {
+        findings::section(about, &mut out);
+    }
     out.close("main");
     out.into_text()
 }

@@ -52,6 +52,12 @@ fn rows<'a>(about: &About<'a>) -> Vec<Row<'a>> {
     rows
 }
 
+/// The piece that takes longest, and its time, ticks.
+pub(super) fn longest<'a>(about: &About<'a>) -> (&'a Piece, u64) {
+    let all = rows(about).into_iter().map(|row| (row.piece, row.sums.total()));
+    all.reduce(|longest, other| if other.1 > longest.1 { other } else { longest }).expect("what moves has a piece")
+}
+
 /// Prerequisites of a piece in words, as in `stop, 3, 4 and 2 more`.
 fn after(about: &About, piece: &Piece, Waits { inner, events }: &Waits) -> String {
     let events = events.iter().map(|event| match event.kind {

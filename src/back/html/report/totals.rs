@@ -39,7 +39,7 @@ pub(super) fn summary(about: &About) -> String {
 }
 
 /// Duration of the program, s: by the planning of its controller, or as it is played; `None` when nothing moves.
-fn time(about: &About) -> Option<f64> {
+pub(super) fn time(about: &About) -> Option<f64> {
     let ticks = about.record.all.total();
     let played = (ticks > 0).then(|| about.time(ticks));
     about.outcome.controller.map(|controller| controller.spent.time).or(played)
@@ -63,6 +63,8 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         );
         rows.push(("Edges in common", less));
     }
+    let near = marker.near_length();
+    rows.extend((near > 0.0).then(|| ("Thin strips", format!("{} m beside edges of other parts", metres(near)))));
     rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
@@ -124,7 +126,7 @@ fn notches(about: &About) -> Option<String> {
 }
 
 /// Cost of the job; `None` when the price is unknown.
-fn cost(about: &About) -> Option<String> {
+pub(super) fn cost(about: &About) -> Option<String> {
     let price = about.context.job.remarks.price?;
     Some(price.costs(time(about)?, about.context.marker.piece_count()).to_string())
 }
