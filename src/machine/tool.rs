@@ -157,6 +157,14 @@ impl ToolKind {
         }
     }
 
+    /// True if it cuts the material through: a place of it then lies in one part at most.
+    pub fn severs(self) -> bool {
+        match self {
+            Self::Knife | Self::Router => true,
+            Self::Spray | Self::Wheel | Self::Pen => false,
+        }
+    }
+
     /// Adapts the knife to the tool: a tool without a blade is a point on the line, along its tangent, without overlaps.
     pub(super) fn fit(self, knife: &mut Knife) {
         if !self.has_blade() {

@@ -40,6 +40,7 @@ mod nest;
 mod notch_forms;
 mod notches;
 mod options;
+mod overlaps;
 mod page;
 mod passes;
 mod pattern;

@@ -86,7 +86,8 @@ fn a_doubtful_drawing_is_named() {
         format!("N{n}*M15*X{x}Y{x}*M14*X{far}Y{x}*X{far}Y{far}*X{x}Y{far}*X{x}Y{x}*M15*")
     };
     let file = |body: &[String]| format!("H1*G71*{}M0*", body.concat());
-    check(&file(&[square(1, 0), square(2, 500)]), &["marker/overlapping-pieces"]);
+    check(&file(&[square(1, 0), square(2, 980)]), &["marker/overlapping-pieces"]);
+    check(&file(&[square(1, 0), square(2, 500)]), &["marker/deep-overlap"]);
     check(&file(&[square(1, 0), square(2, 1000)]), &[]);
     check(&file(&[square(1, 0), "X2000Y500M43*".into()]), &["marker/drill-outside"]);
     check(&file(&[square(1, 0), square(2, 2000), square(1, 4000)]), &["marker/piece-number-twice"]);

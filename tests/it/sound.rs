@@ -33,7 +33,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("lifted-ring.cut", "knife.max_down_mm=30"),                                      // lifts amid a ring
     ("lifted-slit.csv", "knife.max_down_mm=10"), // a slit that ends on a curve where the blade is plunged
     ("lifted-start.cut", "knife.max_down_mm=60"), // a ring that begins where no blade can enter it
-    ("line-in-overlap.cut", ""),                 // a line of one piece where another one, cut before, lies over it
+    ("line-in-overlap.cut", OVERLAPPING),        // a line of one piece where another one, cut before, lies over it
     ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
     ("needle-led-over.plt", ""),                 // a cut that is led over to another at the tip of a needle
@@ -43,30 +43,31 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
-    ("part-around-a-cut-out.dxf", ""),           // a part over another, around a cut-out of that
+    ("part-around-a-cut-out.dxf", OVERLAPPING),  // a part over another, around a cut-out of that
     ("polygon.cut", ""),                         // edges shorter than the blade
     ("scallops.cut", COARSE), // a chord that the blade before covers and the one behind does not meet
-    ("seam-out-of-part.plt", "--cut-all"), // a seam line that sticks out of its part into another one
+    ("seam-out-of-part.plt", "--cut-all nest.overlap_mm=off"), // a seam line that sticks out of its part into another one
     ("slit-askew.cut", NO_OVERLAPS), // slits that lean on their edge, led on by the tolerance alone
-    ("slit-coarse.csv", ""),  // slits that end on an edge whose chords stand for a curve
+    ("slit-coarse.csv", ""),         // slits that end on an edge whose chords stand for a curve
     ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
     ("slit-there-and-back.cut", ""), // a slit inside its part, in a stroke there and back
     ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
-    ("spike.plt", "--cut-all"), // a chord of 0.18 mm at the point of a spike
-    ("straight-edge.cut", COARSE), // an edge as long as the blade that bends a little
+    ("spike.plt", "--cut-all nest.overlap_mm=off"), // a chord of 0.18 mm at the point of a spike
+    ("straight-edge.cut", COARSE),   // an edge as long as the blade that bends a little
     ("stroke-there-and-back.plt", "--cut-all"), // the same in a plot
-    ("tabs.cut", ""),         // a curve that begins at a reflex corner
+    ("tabs.cut", ""),                // a curve that begins at a reflex corner
     ("thread-between-edges.cut", ""), // a cut that ends between two edges of its neighbours, 0.2 mm apart
     ("touching-seam.plt", "--cut-all"), // a line that touches another and goes on along it
-    ("two-plunges.cut", COARSE), // a line whose last two plunges reach its end
+    ("two-plunges.cut", COARSE),     // a line whose last two plunges reach its end
     ("u-half-as-deep-as-wide.dxf", ""), // a notch that is half a circle
     ("u-notch.cut", "knife.reflex_front_overlap_mm=0.1"), // overlaps into the part itself
-    ("u-past-edge.plt", ""),  // a notch whose stroke overshoots its edge
+    ("u-past-edge.plt", ""),         // a notch whose stroke overshoots its edge
 ];
 const NO_OVERLAPS: &str =
     "knife.front_overlap_mm=0 knife.corner_front_overlap_mm=0 knife.heel_overlap_mm=0 knife.corner_heel_overlap_mm=0";
 const LONG_OVERLAPS: &str =
     "knife.front_overlap_mm=3 knife.corner_front_overlap_mm=3 knife.heel_overlap_mm=3 knife.corner_heel_overlap_mm=3";
+const OVERLAPPING: &str = "nest.overlap_mm=off";
 const COARSE: &str = "path.tolerance_mm=0.3";
 const LONG_HEEL: &str = "knife.corner_heel_overlap_mm=3 path.tolerance_mm=0.15 nest.band_mm=0.3";
 

@@ -121,7 +121,9 @@ codes! {
     /// A size that depends on the plotter.
     HPGL_SCALE = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
     /// More than one page.
-    HPGL_PAGES = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out or was cut off, or draws over the same place after a fresh start; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
+    HPGL_PAGES = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out or was cut off, beside or the same as the drawing before, or draws over the same place after a fresh start.", "Two markers in one file are both cut. If they are pages of one marker that go on beside each other, all is well; else split the file. A page that is drawn again is cut once.");
+    /// Pages over each other.
+    HPGL_PAGES_OVER = error(Shape, "hpgl/pages-overlap", "A plot draws on after a page went out or was cut off (PG, AF, AH, EC), over the drawing before.", "Each page has paper of its own, and its numbers begin anew. On the cloth all pages would lie at one place and be cut into each other. If they are pages of one marker, let the CAD system write one long page; if they are several markers, split the file where the message says.");
     /// Frames of a long plot.
     HPGL_FRAMES = error(Shape, "hpgl/frame-advance", "A plot draws on after the paper was moved on by a frame (FR).", "Places behind FR have the same numbers and lie a frame farther on the paper. How long a frame is only the plotter knows, so the frames would be cut into each other. Let the CAD system write one long plot, without frames.");
     /// A place that no table reaches.

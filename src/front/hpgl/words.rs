@@ -16,7 +16,7 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`DF`", about: "the same of modes, scale and terminator; pen, place, corners and turn stay" },
     Word { words: "other escape sequences, lines of `@PJL`", about: "passed over, with the data that they count (`ESC*b26W`)" },
     Word { words: "`ESC ;@:` to a line `END`", about: "settings of Summa cutters: passed over" },
-    Word { words: "`PG`, `AF`, `AH`, `EC`", about: "reported when more is drawn behind it; so is `IN` when the same place is drawn again" },
+    Word { words: "`PG`, `AF`, `AH`, `EC`", about: "refused when a page behind it lies over the drawing before, reported when it lies beside it or is the same; `IN` is reported when the same place is drawn again" },
     Word { words: "`FR`", about: "refused when more is drawn behind it: the frames would lie on each other" },
     Word { words: "`FP`, `RA`, `RR`, `WG`, `FT`, `UC`, `CP`, `CS`, `SS`, `SM`, `IW`, `RP`", about: "reported" },
     Word { words: "`LT`, `VS`, `PW` and other settings", about: "no effect on the cut" },

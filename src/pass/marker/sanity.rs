@@ -1,10 +1,12 @@
-//! Sanity: warns of outlines that cross and of holes outside every part. Changes nothing.
+//! Sanity: warns of outlines that cross and of holes outside every part, and refuses parts that lie in each other. Changes
+//! nothing.
 //!
 //! Needs: welded contours. Reports each of these once per piece or pair, at the first place in cut order:
 //!
 //! - An outline crosses itself, or another one of its piece.
 //! - The outlines of two pieces overlap by more than the distance within which edges of different parts merge (`nest.band_mm`).
-//!   Pieces edge to edge, or one inside the other, do not overlap.
+//!   Pieces edge to edge, or one inside the other, do not overlap. Deeper than `nest.overlap_mm`, or by a large share of one,
+//!   it is an error: cloth cannot lie in two parts.
 //! - A slit reaches another one of its piece, or an edge on the other side.
 //! - A slit leads out of its part.
 //! - A hole lies in no part. Without closed contours there are no parts to check.
@@ -12,6 +14,7 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -19,7 +22,7 @@ use rayon::prelude::*;
 use super::pass::MarkerPass;
 use super::search::{in_parts, search_ended};
 use super::severed::severing;
-use crate::analysis::depth::depth;
+use crate::analysis::depth::{Depth, depth, share};
 use crate::analysis::outlines::{Outlines, slack};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
@@ -31,8 +34,11 @@ use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
 
-pub(super) const PASS: MarkerPass =
-    MarkerPass { name: "sanity", about: "warns of outlines that cross and of holes outside every part", run };
+pub(super) const PASS: MarkerPass = MarkerPass {
+    name: "sanity",
+    about: "warns of outlines that cross and of holes outside every part, refuses deep overlaps",
+    run,
+};
 
 /// Number of places on an outline that are tested for lying in another.
 const PROBES: usize = 16;
@@ -40,6 +46,14 @@ const PROBES: usize = 16;
 const SAYING: usize = 500;
 /// Least distance from the part of the middle of a slit that leads out of it, mm.
 const OUTSIDE: f64 = 0.3;
+/// Share of the smaller one of two parts from which on it is as much another's: parts of one shape that nearly lie on each
+/// other, and a narrow part across an edge, overlap by little depth.
+const LARGEST_SHARE: f64 = 0.25;
+/// Longest side of a closed line, mm, that is a notch or a hole: it is no cloth that somebody sews.
+const LARGEST_MARK: f64 = 15.0;
+/// Hint with the key that allows overlaps.
+const ALL_THE_SAME: &str =
+    "`--set nest.overlap_mm=off` cuts both all the same; a number is the depth in mm that is allowed";
 /// Decimals of the depth of overlaps, mm.
 const DEPTH_DECIMALS: u32 = 2;
 
@@ -62,7 +76,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         ended = earlier(ended, part.ended);
         boxes.extend(part.boxes);
     }
-    let mut search = Search::new(marker, Boxes::new(boxes), job.profile.band(marker.unit));
+    let mut search = Search::new(marker, Boxes::new(boxes), job);
     let mut work = Budget::of_a_marker();
     ended = earlier(ended, search.overlaps(&mut work, diagnostics));
     // Without closed contours there are no parts to check.
@@ -195,6 +209,7 @@ fn span(marker: &Marker, piece: usize, part: &Outlines, point: usize) -> Span {
 /// Data shared by all searches.
 struct Search<'a> {
     marker: &'a Marker,
+    job: &'a Job,
     /// Boxes of the pieces.
     boxes: Boxes,
     /// Outlines of pieces, filled when they are compared with others: most pieces of a marker are apart. Empty until then.
@@ -204,8 +219,9 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(marker: &'a Marker, boxes: Boxes, band: f64) -> Self {
-        Self { marker, boxes, parts: Vec::new(), touching: band.max(slack(marker)) }
+    fn new(marker: &'a Marker, boxes: Boxes, job: &'a Job) -> Self {
+        let touching = job.profile.band(marker.unit).max(slack(marker));
+        Self { marker, job, boxes, parts: Vec::new(), touching }
     }
 
     /// Allocates space for the outlines to compare.
@@ -217,7 +233,7 @@ impl<'a> Search<'a> {
         self.parts[piece].get_or_init(|| Box::new(Outlines::of(self.marker, piece)))
     }
 
-    /// Warns of overlapping pieces; returns the piece at which the budget was spent.
+    /// Reports overlapping pieces; returns the piece at which the budget was spent.
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) -> Option<usize> {
         for i in 0..self.boxes.all().len() {
             let extent = self.boxes.all()[i];
@@ -233,24 +249,12 @@ impl<'a> Search<'a> {
             self.make_room();
             for k in later {
                 let Some((place, span)) = self.overlap(i, k, work) else { continue };
-                let (one, other) = (name(self.marker, i), name(self.marker, k));
                 work.spend(SAYING);
-                let [a, b] = [i, k].map(|piece| self.part(piece));
-                let finding = match depth([a, b], work) {
-                    Some(depth) if depth.by <= self.touching => continue,
-                    Some(depth) => {
-                        let by = fixed(depth.by, DEPTH_DECIMALS);
-                        let message = format!("the outlines of {one} and {other} overlap by {by} mm");
-                        Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).by(depth.by).on_cloth(depth.at)
-                    }
-                    // The depth was not determined.
-                    None => {
-                        let message = format!("the outlines of {one} and {other} overlap");
-                        Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).on_cloth(place)
-                    }
-                };
-                let finding = finding.about([i, k].map(|piece| self.marker.pieces[piece].number).to_vec());
-                diagnostics.push(finding.hint("move one of the two in the marker: each is cut into the other"));
+                let depth = depth([i, k].map(|piece| self.part(piece)), work);
+                if depth.is_whole && depth.by <= self.touching {
+                    continue;
+                }
+                diagnostics.push(self.tell_overlap([i, k], &depth, place).at(span));
             }
             // All its pairs as the earlier one are done, and those as the later one came before.
             self.parts[i].take();
@@ -259,6 +263,39 @@ impl<'a> Search<'a> {
             }
         }
         None
+    }
+
+    /// The finding that two pieces overlap, at a depth and at a place. It is an error where both are cut and too much cloth would
+    /// lie in both.
+    fn tell_overlap(&self, pieces: [usize; 2], depth: &Depth, place: Point) -> Diagnostic {
+        let parts = pieces.map(|piece| self.part(piece));
+        let (share, smaller) = share(parts);
+        let (width, height) = parts[smaller].extent.size();
+        let is_cut = |piece: usize| self.job.selection.has(self.marker.pieces[piece].number);
+        let are_parts = share > 0.0 && width.max(height) > LARGEST_MARK && pieces.into_iter().all(is_cut);
+        let most = self.job.profile.nest.overlap_mm.filter(|_| are_parts && self.job.profile.tool.kind.severs());
+        let is_deep = most.is_some_and(|most| depth.of_outlines > most || share >= LARGEST_SHARE);
+        let numbers = pieces.map(|piece| self.marker.pieces[piece].number);
+        let [one, other] = numbers;
+        let by = fixed(depth.by, DEPTH_DECIMALS);
+        let finding = if is_deep {
+            let at_least = if depth.is_whole { "" } else { "at least " };
+            let mut message = format!("pieces {one} and {other} lie over each other by {at_least}{by} mm");
+            if share >= LARGEST_SHARE {
+                let _ = write!(message, ", {} % of piece {}", fixed(100.0 * share, 0), numbers[smaller]);
+            }
+            let finding = Diagnostic::new(&code::MARKER_DEEP_OVERLAP, message);
+            finding
+                .hint("move one of the two in the marker, or leave one out: `--skip` and its number")
+                .hint(ALL_THE_SAME)
+        } else {
+            let by = if depth.is_whole { format!(" by {by} mm") } else { String::new() };
+            let message = format!("the outlines of piece {one} and piece {other} overlap{by}");
+            let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message);
+            finding.hint("move one of the two in the marker: each is cut into the other")
+        };
+        let finding = finding.about(numbers.to_vec());
+        if depth.is_whole { finding.by(depth.by).on_cloth(depth.at) } else { finding.on_cloth(place) }
     }
 
     /// Place where the outlines of two pieces overlap, and the span of the later one there.

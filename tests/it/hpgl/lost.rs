@@ -111,7 +111,7 @@ fn commas_and_blanks_that_a_program_writes_at_every_place_are_no_fault() {
     }
     let told = |text: String| read(&source(text), &Job::default()).1;
     assert_eq!(told(plot.replace("PD9000,900", "PD9000 ,900")), ["hpgl/lone-separator"]);
-    assert_eq!(told(plot.replace("PD9000,900", "PD+000,900")), ["hpgl/lone-separator", "marker/overlapping-pieces"]);
+    assert_eq!(told(plot.replace("PD9000,900", "PD+000,900")), ["hpgl/lone-separator", "marker/deep-overlap"]);
     assert_eq!(told(plot.replace("PD9000,900", "PD9000,90,")), ["hpgl/lone-separator"]);
     assert_eq!(told(plot.replace("PD9000,900", "PD,9000,900")), ["hpgl/lost-place"]);
 }
