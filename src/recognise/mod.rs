@@ -17,6 +17,7 @@
 //!   `say` reports doubts about the drawing, `doubts` those about pieces.
 
 mod again;
+mod border;
 mod bridge;
 mod chains;
 mod close;

@@ -3,9 +3,10 @@
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::border::{LEAST_SINGLE_FILL, border, has_notches, has_one_main_part, has_wide_margins};
 use super::doubts::{self, SHORTEST_NAMED, finding};
 use super::frame;
-use super::line::{Class, Line, SHORTEST_NOTCH, SMALL_OUTLINE};
+use super::line::{Class, Line, SMALL_OUTLINE};
 use super::marks::{EdgeLine, Lie};
 use super::nest::middle;
 use super::parts::Parts;
@@ -16,7 +17,7 @@ use super::{signs, torn};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, polyline, ring};
+use crate::geom::{Extent, Point, ring};
 use crate::ir::drawing::Ending;
 use crate::ir::marker::Notch;
 use crate::machine::Job;
@@ -28,16 +29,8 @@ use crate::units::number::fixed;
 const SHORTEST_CUT_SHORT: f64 = 25.0;
 /// Number of closed lines in a part at which it may be a frame.
 const DOUBTFUL: usize = 2;
-/// Least share of the rectangle around it that a single part in a frame fills: a pocket or a loop fills less.
-const LEAST_SINGLE_FILL: f64 = 0.15;
 /// Least share of its box that the edge of a table or of the cloth encloses.
 const LEAST_EDGE_FILL: f64 = 0.85;
-/// Usual allowance of a seam at the most, mm; hems are wider.
-const WIDEST_SEAM: f64 = 15.0;
-/// Farthest that two even margins differ, mm.
-const EVEN: f64 = 1.0;
-/// Least number of margins out of four that are wide or of a width of their own if the outline may be a frame.
-const ODD_MARGINS: usize = 3;
 /// Number of parts in a frame at which it is surely one.
 const SURE_PARTS: usize = 4;
 /// Most pens that a message names.
@@ -271,49 +264,6 @@ fn crosses(sheet: &Sheet, out: &mut Diagnostics) {
     out.push(finding.hint("if they mark holes, let the CAD draw circles, and set `hpgl.drill_max_mm`"));
 }
 
-/// True if one part takes nearly all the area, beside test squares and titles: it may be the edge of the cloth.
-fn has_one_main_part(sheet: &Sheet) -> bool {
-    let areas = sheet.lines.iter().filter(|line| line.class == Class::Part).map(|line| line.area);
-    let (all, largest) = areas.fold((0.0, 0.0), |(all, largest): (f64, f64), area| (all + area, largest.max(area)));
-    all - largest <= frame::MOST_OUTSIDE * largest
-}
-
-/// True if a short stroke begins on a seam line inside a rectangle without notches: the seam line may be the part.
-fn has_notches(sheet: &Sheet, seam: usize) -> bool {
-    let Some(part) = sheet.nest.outermost(seam).filter(|&part| sheet.lines[part].is_rectangle(sheet.band())) else {
-        return false;
-    };
-    if sheet.marks.iter().any(|mark| mark.outline == part) || sheet.strokes.iter().any(|one| one.outline == part) {
-        return false;
-    }
-    let points = sheet.lines[seam].points(&sheet.vertices);
-    let is_short = |line: &&Line| {
-        let is_open = !line.is_closed && line.is_open_question();
-        is_open && (SHORTEST_NOTCH..=Notch::LONGEST).contains(&line.length)
-    };
-    let mut work = Budget::of_a_marker();
-    let is_on = |line: &Line| {
-        let ends = line.as_drawn(&sheet.vertices);
-        let distance = |at: Point| polyline::distance(at, &points);
-        work.spend(points.len()) && [0, ends.len() - 1].iter().any(|&end| distance(ends[end].at) <= Notch::MISS)
-    };
-    sheet.lines.iter().filter(is_short).any(is_on)
-}
-
-/// True if the outline of a seam line is a rectangle that may be a frame around a part: most of its sides are farther off than
-/// seams are wide, or at distances of their own.
-fn has_wide_margins(sheet: &Sheet, seam: usize) -> bool {
-    let inner = sheet.lines[seam].extent;
-    sheet.nest.outermost(seam).is_some_and(|part| {
-        let outer = sheet.lines[part].extent;
-        let (low, high) = (inner.min - outer.min, outer.max - inner.max);
-        let margins = [low.x, low.y, high.x, high.y];
-        let is_equal = |one: f64| margins.iter().filter(|other| (**other - one).abs() <= EVEN).count() > 1;
-        let odd = margins.iter().filter(|&&margin| margin > WIDEST_SEAM || !is_equal(margin)).count();
-        odd >= ODD_MARGINS && sheet.lines[part].is_rectangle(sheet.band())
-    })
-}
-
 /// Small closed lines, and long open ones, that are in no part.
 fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     let standing = standing(sheet);
@@ -383,8 +333,9 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
         return None;
     }
     let (width, height) = line.extent.size();
-    let (width, height, count) = (fixed(width, 1), fixed(height, 1), held.len());
-    let message = format!("frame or part: {width} x {height} mm around {count} closed lines");
+    let (width, height) = (fixed(width, 1), fixed(height, 1));
+    let lines = if held.len() == 1 { "one closed line" } else { &format!("{} closed lines", held.len()) };
+    let message = format!("frame or part: {width} x {height} mm around {lines}");
     let found = finding(&code::DRAWING_FRAME_OR_PART, message, line, sheet).on_cloth(line.extent.min);
     // The frame that was asked for is around it.
     let of_frame = match job.profile.hpgl.frame {
@@ -393,25 +344,6 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     };
     let of_part = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
     Some(found.hint(of_frame).hint(of_part))
-}
-
-/// The largest rectangle that is taken for a part around a line with a seam line of its own: a border around one part looks so,
-/// and so does a part with a cut-out that is stitched around.
-fn border(sheet: &Sheet, job: &Job) -> Option<usize> {
-    if job.profile.hpgl.frame != Frame::Auto || !has_one_main_part(sheet) {
-        return None;
-    }
-    let around = |seam: usize| {
-        let inner = sheet.nest.parent(seam).filter(|_| sheet.lines[seam].class == Class::Seam)?;
-        let part = sheet.nest.parent(inner).filter(|_| sheet.lines[inner].class == Class::Inner)?;
-        let (part_line, inner) = (&sheet.lines[part], &sheet.lines[inner]);
-        let is_border = part_line.class == Class::Part
-            && part_line.is_rectangle(sheet.band())
-            && inner.area >= LEAST_SINGLE_FILL * part_line.area;
-        (is_border && !inner.is_cut && inner.usage != Use::Drawn).then_some(part)
-    };
-    let by_area = |a: &usize, b: &usize| sheet.lines[*a].area.total_cmp(&sheet.lines[*b].area).then(b.cmp(a));
-    (0..sheet.lines.len()).filter_map(around).max_by(by_area)
 }
 
 /// Closed lines outside the frames: the cloth is not there.

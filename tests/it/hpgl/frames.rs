@@ -165,9 +165,44 @@ fn a_rectangle_around_one_line_with_its_seam_line_is_refused_until_it_is_said_wh
     assert_eq!(told(&all, &job), ["drawing/frame"]);
     let as_part = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
     assert_eq!(told(&all, &as_part), ["drawing/may-be-frame"]);
-    // A line without a seam line is a cut-out more often than a part, and one that fills little is a pocket.
+    // A line without a sign of a part is a cut-out more often than a part, and one that fills little is a pocket.
     let bare = format!("{}{part}", rectangle(0, 0, 20_000, 28_000));
     assert_eq!(told(&bare, &Job::default()), ["drawing/may-be-frame"]);
     let far = format!("{}{part}{seam}", rectangle(0, 0, 60_000, 36_000));
     assert_ne!(told(&far, &Job::default()), ["drawing/frame-or-part"]);
+}
+
+/// A cut-out is waste: nothing is marked on it, and its notches lead into the cloth around it.
+#[test]
+fn a_rectangle_around_one_line_with_the_marks_of_a_part_is_refused_until_it_is_said_what_it_is() {
+    let told = |lines: &str, job: &Job| read(&source(format!("IN;SP1;{lines}PU;SP0;")), job).1;
+    let part = "PU4000,4000;PD14000,4000,14400,10000,12000,22000,4800,22000,4000,4000;";
+    let bare = format!("{}{part}", rectangle(0, 0, 20_000, 28_000));
+    let [inwards, outwards] = ["PU8000,4000;PD8000,4240;", "PU8000,4000;PD8000,3760;"];
+    let [v_inwards, v_outwards] = ["PU7900,4000;PD8000,4200,8100,4000;", "PU7900,4000;PD8000,3800,8100,4000;"];
+    let [grain, beside, across] =
+        ["PU8000,8000;PD8000,18000;", "PU18000,8000;PD18000,18000;", "PU8000,2000;PD8000,26000;"];
+    for mark in [inwards, v_inwards, grain] {
+        let all = format!("{bare}{mark}");
+        assert_eq!(told(&all, &Job::default()), ["drawing/frame-or-part"], "{mark}");
+        let mut job = Job::default();
+        job.profile.hpgl.frame = Frame::Outermost;
+        assert!(!told(&all, &job).contains(&"drawing/frame-or-part"), "{mark}");
+        let as_part = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
+        assert!(!told(&all, &as_part).contains(&"drawing/frame-or-part"), "{mark}");
+        // A notch on the rectangle: that is the part.
+        let notched = format!("{all}PU10000,0;PD10000,240;");
+        assert!(!told(&notched, &Job::default()).contains(&"drawing/frame-or-part"), "{mark}");
+    }
+    for mark in [outwards, v_outwards, beside, across] {
+        assert!(!told(&format!("{bare}{mark}"), &Job::default()).contains(&"drawing/frame-or-part"), "{mark}");
+    }
+    // A part of odd margins around a seam line with a notch on it, and one with even margins.
+    let seam = |margins: [i64; 4]| {
+        let [left, low, right, top] = margins;
+        let inner = rectangle(left, low, 20_000 - left - right, 28_000 - low - top);
+        format!("{}{inner}PU9000,{low};PD9000,{};", rectangle(0, 0, 20_000, 28_000), low + 240)
+    };
+    assert_eq!(told(&seam([1600, 800, 2400, 1200]), &Job::default()), ["drawing/frame-or-part"]);
+    assert_ne!(told(&seam([400, 400, 400, 400]), &Job::default()), ["drawing/frame-or-part"]);
 }
