@@ -20,6 +20,8 @@ pub(super) struct Alone {
     count: usize,
     first: Option<(char, Span)>,
     last: Option<Span>,
+    /// Places at which the knife goes down before X and Y are known, and whether one of the two is.
+    unplaced: Vec<(bool, Span)>,
 }
 
 impl Alone {
@@ -35,16 +37,32 @@ impl Alone {
         self.last = Some(span);
     }
 
-    /// Reports the points if they are few, and the file repeats coordinates otherwise. `torn` is the last block of the file if it
-    /// lacks its asterisk.
+    /// Records that the knife goes down before X and Y are known; `is_half` if one of the two is.
+    pub(super) fn down_without_place(&mut self, is_half: bool, span: Span) {
+        self.unplaced.push((is_half, span));
+    }
+
+    /// Reports the points if they are few, and the file repeats coordinates otherwise; then the knife-downs without a place,
+    /// unless such a point is the reason. `torn` is the last block of the file if it lacks its asterisk.
     pub(super) fn report(&self, bytes: &[u8], torn: Option<Span>, out: &mut Diagnostics) {
-        let Some((letter, first)) = self.first else { return };
+        let finding = self.finding(bytes, torn, out);
+        let is_told = finding.is_some();
+        finding.into_iter().for_each(|finding| out.push(finding));
+        for &(_, span) in self.unplaced.iter().filter(|(is_half, _)| !(*is_half && is_told)) {
+            let message = "the knife goes down before any X and Y; what is missing is taken as 0";
+            let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
+            out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
+        }
+    }
+
+    fn finding(&self, bytes: &[u8], torn: Option<Span>, out: &Diagnostics) -> Option<Diagnostic> {
+        let (letter, first) = self.first?;
         let is_torn = torn.is_some() && torn == self.last;
         let count = self.count - usize::from(is_torn);
         let are_few = |repeats: usize| repeats > count && (count <= 1 || repeats >= FEW * count);
         let is_known = is_torn && out.iter().any(|finding| finding.code == &code::ISO_ENDS_KNIFE_DOWN);
         if count == 0 && is_known || !are_few(repeats(bytes)) {
-            return;
+            return None;
         }
         let (blocks, hint) = match count {
             0 => ("the file ends".to_owned(), "the file is most likely cut short; export it again"),
@@ -52,7 +70,7 @@ impl Alone {
             _ => (format!("one of {count} blocks"), LOST_LETTER),
         };
         let message = format!("{blocks} with {letter} alone, where others repeat an unchanged coordinate");
-        out.push(Diagnostic::new(&code::ISO_ALONE, message).at(first).hint(hint));
+        Some(Diagnostic::new(&code::ISO_ALONE, message).at(first).hint(hint))
     }
 }
 

@@ -385,9 +385,7 @@ impl Lowering<'_> {
 
     fn down(&mut self, span: Span) {
         if self.place.contains(&None) && !self.damaged {
-            let message = "the knife goes down before any X and Y; what is missing is taken as 0";
-            let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
-            self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
+            self.alone.down_without_place(self.place != [None, None], span);
         }
         if self.place != [None, None] && !self.knife.is_down() {
             self.start.finding(span).into_iter().for_each(|finding| self.out.push(finding));
