@@ -93,6 +93,19 @@ fn a_doubtful_drawing_is_named() {
     check(&file(&[square(1, 0), square(2, 2000), square(1, 4000)]), &["marker/piece-number-twice"]);
 }
 
+#[test]
+fn two_notches_that_share_a_side_are_cut_whole_and_lead_nowhere() {
+    let file = |notches: &str| format!("H1*G71*M15*N1*X0Y0*M14*X400Y0*{notches}X1000Y0*X1000Y800*X0Y800*X0Y0*M15*M0*");
+    let (marker, found) = read(&file("X400Y50*X450Y50*X450Y0*X450Y50*X500Y50*X500Y0*"));
+    assert_eq!(found, [""; 0]);
+    let piece = &marker.pieces[0];
+    assert_eq!((piece.outline_notches.len(), piece.notches.len()), (1, 1));
+    assert!((piece.notches[0].root - piece.notches[0].tip).norm() > 4.99);
+    // One that goes on past the mouth leads out.
+    let (_, found) = read(&file("X400Y50*X450Y50*X450Y-30*X450Y50*X500Y50*X500Y0*"));
+    assert_eq!(found, ["marker/slit-outwards"]);
+}
+
 /// The slits of a piece of 100 by 80 mm that a file writes in some form: depths in mm, and lengths of crossbars. Nothing
 /// but the outline may be left of its contours.
 fn slits(body: &str) -> Vec<(f64, Option<f64>)> {

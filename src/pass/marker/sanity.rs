@@ -28,7 +28,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, come_near, crossing};
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::{Drill, Marker, Notch};
 use crate::machine::Job;
 use crate::source::Span;
@@ -149,16 +149,22 @@ impl Alone {
     }
 }
 
-/// Warns of slits that lead out of a piece.
+/// Warns of slits that lead out of a piece. One that ends at the mouth of a notch of its piece does not: it is the side that two
+/// notches beside each other have in common.
 fn slits_outwards(marker: &Marker, piece: usize, part: &Outlines, work: &mut Budget) -> Option<Diagnostic> {
     // Without closed contours there is no part to leave.
     part.closed().next()?;
+    let is_common_side = |slit: &Notch| {
+        let mut mouths = marker.pieces[piece].outline_notches.iter().map(|notch| notch.mouth);
+        mouths.any(|[from, to]| polyline::distance_to_segment(slit.tip, from, to) <= Notch::MISS)
+    };
     let leads_out = |slit: &&Notch| {
         let middle = slit.root + (slit.tip - slit.root) / 2.0;
         work.spend(3 * part.points.len())
             && !part.holds(middle)
             && part.distance(middle) > OUTSIDE
             && part.distance(slit.root) <= Notch::MISS
+            && !is_common_side(slit)
     };
     let mut outwards = marker.pieces[piece].notches.iter().filter(leads_out);
     let first = outwards.next()?;
