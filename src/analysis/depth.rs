@@ -142,7 +142,7 @@ mod tests {
             let mut piece = Piece::default();
             for [x, y, right, top] in std::iter::once(corners).chain(hole.filter(|_| k == 0)) {
                 let corners = [[x, y], [right, y], [right, top], [x, top], [x, y]];
-                let range = marker.list.append_line(&corners.map(Point::from), &[Default::default(); 5]);
+                let range = marker.list.append_line(&corners.map(Point::from), &[piece.span; 5]);
                 piece.contours.extend(range.map(|range| Contour { range, closed: true }));
             }
             marker.pieces.push(piece);

@@ -128,22 +128,22 @@ impl Pages {
         let is_page = |end: &&PageEnd| matches!(end.kind, End::CutOff | End::Out) && end.drawn < drawn;
         let ends: Vec<&PageEnd> = self.ends.iter().filter(is_page).collect();
         let Some(first) = ends.first() else { return Vec::new() };
-        let mut earlier = vec![0..first.drawn];
-        let mut before = extent(drawing, 0..first.drawn);
-        let lie = |(i, end): (usize, &&'_ PageEnd)| {
+        // Copies are compared with the first page and with the last one: they stand in a row.
+        let first_page = 0..first.drawn;
+        let mut last = first_page.clone();
+        let mut before = extent(drawing, first_page.clone());
+        let lie = |(i, end): (usize, &&PageEnd)| {
             let page = end.drawn..ends.get(i + 1).map_or(drawn, |next| next.drawn);
             let around = extent(drawing, page.clone());
-            // The first page and the last one before: copies stand in a row.
-            let is_again =
-                [earlier.first(), earlier.last()].into_iter().flatten().any(|one| repeats(drawing, one, &page));
-            let lie = match is_again {
-                true => Lie::Again,
-                false if lies_over(&before, &around) => Lie::Over,
-                false => Lie::Beside,
-            };
+            let is_again = [&first_page, &last].into_iter().any(|one| repeats(drawing, one, &page));
+            let is_over = lies_over(&before, &around);
             before.join(&around);
-            earlier.push(page);
-            lie
+            last = page;
+            match (is_again, is_over) {
+                (true, _) => Lie::Again,
+                (false, true) => Lie::Over,
+                (false, false) => Lie::Beside,
+            }
         };
         let lies: Vec<Lie> = ends.iter().enumerate().map(lie).collect();
         ends.into_iter().zip(lies).collect()

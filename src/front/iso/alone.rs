@@ -47,7 +47,9 @@ impl Alone {
     pub(super) fn report(&self, bytes: &[u8], torn: Option<Span>, out: &mut Diagnostics) {
         let finding = self.finding(bytes, torn, out);
         let is_told = finding.is_some();
-        finding.into_iter().for_each(|finding| out.push(finding));
+        if let Some(finding) = finding {
+            out.push(finding);
+        }
         for &(_, span) in self.unplaced.iter().filter(|(is_half, _)| !(*is_half && is_told)) {
             let message = "the knife goes down before any X and Y; what is missing is taken as 0";
             let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
