@@ -11,7 +11,7 @@ const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
 /// Minimum height of a corner above the line between its neighbours, in units. Rounding alone gives up to sqrt(2): three points
 /// of a straight line, each off by half a diagonal of the unit.
 const HEIGHT: f64 = 1.5;
-/// Difference of heights that count as equal, in units: those of both directions differ by rounding.
+/// Difference of heights that count as equal, in units: those of both directions differ by the rounding of numbers.
 const HEIGHT_EPSILON: f64 = 1e-6;
 /// Length of the two ways over which the turn of the curve beside a vertex is taken, in units. Rounding turns them by less than
 /// 0.1 rad.
@@ -38,7 +38,8 @@ struct Turn {
     /// Distance from which it is seen, mm.
     reach: f64,
     is_left: bool,
-    /// Height above the line between its neighbours that the curve does not explain, in steps of `HEIGHT_EPSILON` units.
+    /// Height above the line between the places of the polyline at that distance, in steps of `HEIGHT_EPSILON` units. Of two
+    /// vertices at the tip of a needle only the tip stands out.
     height: f64,
     at: Point,
 }
@@ -58,19 +59,38 @@ impl<F: Fn(usize) -> Point> Corners<F> {
     ///
     /// A curve drawn with points as close as its unit climbs in steps that each turn by 45 degrees or more. There a corner must
     /// also turn when seen from neighbours farther away, by more than the curve on either side of it does, and stand out by
-    /// more than rounding. Of several such vertices within the distance of those neighbours the sharpest is the corner.
+    /// more than rounding. Of several such vertices within the distance of those neighbours the sharpest is the corner; a vertex
+    /// that is none itself hides no other.
     pub fn is_at(&self, vertex: usize) -> bool {
         let Some([from, at, to]) = self.turned(vertex) else { return false };
         let far = WINDOWS[WINDOWS.len() - 1] * self.unit;
         if [from, to].iter().all(|point| (point - at).norm() >= far) {
             return true;
         }
-        let Some(turn) = self.turn(vertex) else { return false };
-        let beside = [false, true].into_iter().flat_map(|ahead| {
-            let near = self.walk(vertex, ahead).take_while(|&i| ((self.point)(i) - at).norm() < turn.reach);
-            near.filter_map(|i| self.turn(i))
+        self.turn(vertex).is_some_and(|turn| self.stands_out(vertex, &turn, &mut Vec::new()))
+    }
+
+    /// True if no sharper corner is within the reach of a turn. `known` are the vertices that were asked for, with the answers;
+    /// beyond the greatest number of them a sharper turn counts as a corner.
+    fn stands_out(&self, vertex: usize, turn: &Turn, known: &mut Vec<(usize, bool)>) -> bool {
+        let mut beside = [false, true].into_iter().flat_map(|ahead| {
+            let near = self.walk(vertex, ahead).take_while(|&i| ((self.point)(i) - turn.at).norm() < turn.reach);
+            near.filter_map(|i| self.turn(i).map(|other| (i, other)))
         });
-        !beside.filter(|other| other.is_left == turn.is_left).any(|other| other.order(&turn).is_lt())
+        !beside.any(|(i, other)| {
+            if other.is_left != turn.is_left || !other.order(turn).is_lt() {
+                return false;
+            }
+            if let Some(&(_, is_corner)) = known.iter().find(|known| known.0 == i) {
+                return is_corner;
+            }
+            let place = known.len();
+            known.push((i, true));
+            if place < LOOK {
+                known[place].1 = self.stands_out(i, &other, known);
+            }
+            known[place].1
+        })
     }
 
     /// A vertex and its neighbours, if the drawn line turns there by more than the limit.
@@ -108,9 +128,13 @@ impl<F: Fn(usize) -> Point> Corners<F> {
             let height = polyline::distance_to_segment(at, from.point, to.point) * share;
             let is_sharp = share > 0.0
                 && angle::is_turned(at - from.point, to.point - at, self.limit / share)
-                && height > HEIGHT * self.unit;
-            let height = (height / (HEIGHT_EPSILON * self.unit)).round();
-            is_sharp.then_some(Turn { reach, is_left: turn > 0.0, height, at })
+                && height > (HEIGHT + HEIGHT_EPSILON) * self.unit;
+            is_sharp.then(|| {
+                let [from, to] = [false, true].map(|ahead| place(side(ahead), at, reach));
+                let height = share * polyline::distance_to_segment(at, from, to);
+                let height = (height / (HEIGHT_EPSILON * self.unit)).round();
+                Turn { reach, is_left: turn > 0.0, height, at }
+            })
         })
     }
 }
@@ -132,6 +156,19 @@ fn neighbour(points: &mut impl Iterator<Item = Point>, at: Point, reach: f64) ->
         }
     }
     near
+}
+
+/// Place of a polyline `reach` mm along it from `at`, or its last point.
+fn place(points: impl Iterator<Item = Point>, at: Point, reach: f64) -> Point {
+    let (mut last, mut left) = (at, reach);
+    for point in points {
+        let way = (point - last).norm();
+        if way >= left {
+            return last + (point - last) * (left / way);
+        }
+        (last, left) = (point, left - way);
+    }
+    last
 }
 
 /// Left turn of a polyline over two ways of `reach` mm out from `at`, rad; 0 where it ends before or is drawn in such steps.
@@ -174,6 +211,49 @@ mod tests {
                 assert!(!(0..count).any(|i| corners.is_at(i)), "{radius} {spacing}");
             }
         }
+    }
+
+    #[test]
+    fn only_corners_hide_turns_and_both_directions_have_the_same() {
+        let (limit, unit) = (FRAC_PI_4 / 2.0, 0.1);
+        let mut hidden_by_none = 0;
+        for seed in 0..200 {
+            let mut random = fastrand::Rng::with_seed(seed);
+            let mut at = [0_i32; 2];
+            let points = (0..60).map(|_| {
+                at = [at[0] + random.i32(1..4), at[1] + random.i32(-3..4)];
+                Point::new(f64::from(at[0]) * unit, f64::from(at[1]) * unit)
+            });
+            let mut points: Vec<Point> = points.collect();
+            points.dedup();
+            let count = points.len();
+            let corners = Corners { point: |i: usize| points[i], count, is_ring: false, limit, unit };
+            let reversed = Corners { point: |i: usize| points[count - 1 - i], count, is_ring: false, limit, unit };
+            for vertex in 0..count {
+                assert_eq!(corners.is_at(vertex), reversed.is_at(count - 1 - vertex), "{seed} {vertex}");
+            }
+            // The sharpest turn is a corner, then the next one that no corner hides, and so on.
+            let mut turns: Vec<(usize, Turn)> =
+                (0..count).filter_map(|i| corners.turn(i).map(|turn| (i, turn))).collect();
+            turns.sort_by(|a, b| a.1.order(&b.1));
+            let mut found: Vec<usize> = Vec::new();
+            for (i, turn) in &turns {
+                let near = |ahead| corners.walk(*i, ahead).take_while(|&k| (points[k] - turn.at).norm() < turn.reach);
+                let beside: Vec<usize> = [false, true].into_iter().flat_map(near).collect();
+                let is_sharper = |k: &usize| {
+                    let other = corners.turn(*k);
+                    other.is_some_and(|other| other.is_left == turn.is_left && other.order(turn).is_lt())
+                };
+                if !beside.iter().any(|k| found.contains(k) && is_sharper(k)) {
+                    hidden_by_none += usize::from(beside.iter().any(is_sharper));
+                    found.push(*i);
+                }
+            }
+            found.sort_unstable();
+            let far = |i: &usize| corners.is_at(*i) && corners.turn(*i).is_some();
+            assert_eq!((0..count).filter(far).collect::<Vec<_>>(), found, "{seed}");
+        }
+        assert!(hidden_by_none > 100, "{hidden_by_none}");
     }
 
     #[test]

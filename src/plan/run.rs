@@ -225,8 +225,9 @@ struct OpenSeam {
     missing: f64,
 }
 
-/// Parameter at which a ring closes, near its nominal end `end`. Smoothing may shorten the end of the curve, and the tip must
-/// advance until it is level with the start. Sideways, the band keeps both at one place.
+/// Parameter at which a ring closes, near the end of its lap, `end`. Smoothing may shorten the end of the curve, and the tip
+/// must advance until it is level with the start. Sideways, the band keeps both at one place. Behind the lap the overlap goes on
+/// round the ring, where the tip may be far behind its start in that direction.
 fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
     reaching(curve, curve.derivatives::<2>(start), end)
 }
@@ -336,11 +337,12 @@ impl<'a> Order<'a> {
         let (entry, end) = match run.shape {
             Shape::Open => (Entry::Plunge, extended.end),
             Shape::Ring => {
-                let end = closed(curve, extended.start, extended.end).map_err(|OpenSeam { missing }| {
-                    let missing = fixed(missing, 4);
-                    self.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
-                })?;
-                (Entry::Steady(extended.start), end)
+                let seam =
+                    closed(curve, extended.start, extended.end - run.front).map_err(|OpenSeam { missing }| {
+                        let missing = fixed(missing, 4);
+                        self.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
+                    })?;
+                (Entry::Steady(extended.start), seam.max(extended.end))
             }
         };
         let knife = &job.profile.knife;

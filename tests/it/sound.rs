@@ -19,6 +19,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("crossed-earlier.plt", "--cut-all"), // two cuts beside an edge that cross before the one ends
     ("deep-end.cut", "path.tolerance_mm=0.02"), // a blade that is deepest in the part before its end
     ("dense-blob.cut", "corner.angle_deg=20"), // tight curves of points as near as their rounding
+    ("dense-corners.cut", "corner.angle_deg=20"), // the same hole with corners, each side cut by one plunge
     ("dense-hole.cut", ""),            // the same around a hole narrower than the blade
     ("dense-keyhole.cut", "knife.width_mm=2 knife.back_mm=1"), // its tight curve between two corners
     ("dense-ring.cut", LONG_OVERLAPS), // a ring that is longer than the way along it
@@ -36,9 +37,12 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("line-in-overlap.cut", OVERLAPPING),        // a line of one piece where another one, cut before, lies over it
     ("long-heel.cut", LONG_HEEL),                // a heel overlap of half a blade
     ("narrow-spike.cut", COARSE),                // a leg of a spike beside the other leg
+    ("needle-corner.cut", NEEDLE_CORNER),        // a needle with a second vertex beside its tip
     ("needle-led-over.plt", ""),                 // a cut that is led over to another at the tip of a needle
     ("needle-plunged.plt", ""),                  // a needle one side of which is a plunge cut
     ("needle-tip.plt", ""),                      // cuts on both sides of a needle that meet past its tip
+    ("nibbled-blob.cut", NIBBLED_BLOB),          // plunges in a hole that lie along its other side, too
+    ("nibbled-dense.cut", NIBBLED_DENSE),        // plunges in the steps of a dense circle
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
@@ -51,6 +55,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("slit-coarse.csv", ""),         // slits that end on an edge whose chords stand for a curve
     ("slit-root.plt", "knife.width_mm=3 knife.back_mm=1.5"), // a slit whose edge is cut as far beside it as may be
     ("slit-there-and-back.cut", ""), // a slit inside its part, in a stroke there and back
+    ("slot-overlap.cut", SLOT_OVERLAP), // an overlap that goes round the end of a slot
     ("small-holes.cut", LONG_OVERLAPS), // holes narrower than the blade with long overlaps
     ("spike.plt", "--cut-all nest.overlap_mm=off"), // a chord of 0.18 mm at the point of a spike
     ("straight-edge.cut", COARSE),   // an edge as long as the blade that bends a little
@@ -70,6 +75,10 @@ const LONG_OVERLAPS: &str =
 const OVERLAPPING: &str = "nest.overlap_mm=off";
 const COARSE: &str = "path.tolerance_mm=0.3";
 const LONG_HEEL: &str = "knife.corner_heel_overlap_mm=3 path.tolerance_mm=0.15 nest.band_mm=0.3";
+const NEEDLE_CORNER: &str = "knife.width_mm=8 knife.back_mm=4 corner.angle_deg=20 knife.tight_curves=\"nibble\"";
+const NIBBLED_BLOB: &str = "knife.width_mm=5 knife.back_mm=2.5 corner.angle_deg=40 knife.tight_curves=\"nibble\"";
+const NIBBLED_DENSE: &str = "knife.width_mm=1.5 knife.back_mm=1.125 knife.tight_curves=\"nibble\"";
+const SLOT_OVERLAP: &str = "knife.width_mm=5 knife.back_mm=3.75 knife.front_overlap_mm=3";
 
 #[test]
 fn every_sound_drawing_has_a_program_that_is_verified() {

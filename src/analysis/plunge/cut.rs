@@ -65,9 +65,8 @@ impl BladePlacement {
         let along = polyline::direction(start, end)?;
         let line = [start - along * overlaps[0], end + along * overlaps[1]];
         let length = (line[1] - line[0]).norm();
-        // A deficit of length is split evenly between both ends.
-        let missing = (length - width).max(0.0) / 2.0;
-        let line = [line[0] + along * missing, line[1] - along * missing];
+        let missing = missing((length - width).max(0.0), overlaps);
+        let line = [line[0] + along * missing[0], line[1] - along * missing[1]];
         let surplus = (width - length).max(0.0);
         let reach = surplus + around.knife.clearance_mm;
         let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
@@ -84,7 +83,7 @@ impl BladePlacement {
         if left > 0.0 || surplus.is_deep(shares) {
             (shares, overcut) = surplus.placed(shares);
         }
-        let beyond = [0, 1].map(|end| (overlaps[end] + shares[end] - missing).max(0.0));
+        let beyond = [0, 1].map(|end| (overlaps[end] + shares[end] - missing[end]).max(0.0));
         Some(Self { along, tip: line[1] + along * shares[1], beyond, overcut })
     }
 
@@ -92,6 +91,17 @@ impl BladePlacement {
     pub fn deepest(&self) -> f64 {
         self.overcut[0].max(self.overcut[1]).deepest()
     }
+}
+
+/// Distributes a deficit of length over both ends of a line, evenly as far as they have overlaps, so that a blade as long as the
+/// line cuts all of it. All in mm.
+fn missing(deficit: f64, overlaps: [f64; 2]) -> [f64; 2] {
+    let even = overlaps.map(|overlap| overlap.min(deficit / 2.0));
+    let rest = deficit - even[0] - even[1];
+    let more = [0, 1].map(|end| rest.min(overlaps[end] - even[end]));
+    // One end at most has overlap left.
+    let left = (rest - more[0] - more[1]).max(0.0) / 2.0;
+    [0, 1].map(|end| even[end] + more[end] + left)
 }
 
 /// Distributes a surplus over the waste beyond both ends of a line, the first end preferred, as far as there is room; the rest
@@ -198,6 +208,15 @@ mod tests {
 
     fn room(own: f64, other: f64) -> Room {
         Room { own, other }
+    }
+
+    #[test]
+    fn a_deficit_shortens_overlaps_first() {
+        assert_eq!(missing(0.0, [1.0, 0.5]), [0.0, 0.0]);
+        assert_eq!(missing(0.5, [1.0, 0.5]), [0.25, 0.25]);
+        assert_eq!(missing(1.0, [0.0, 2.0]), [0.0, 1.0]);
+        assert_eq!(missing(2.0, [1.5, 0.25]), [1.625, 0.375]);
+        assert_eq!(missing(2.0, [0.0, 1.0]), [0.5, 1.5]);
     }
 
     #[test]

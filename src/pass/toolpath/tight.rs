@@ -6,7 +6,7 @@
 //! - `follow`: cut without a lift. A run with such a curve gets the tangent mode, since the blade cannot be its chord. A run
 //!   without room for the blade to move, such as a rounded notch, is nibbled: a single plunge would cut straight over it.
 //! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it. On an arc of radius
-//!   R the step is sqrt(8 R e), where e is 0.9 of the tolerance. The blade is longer than the step, so that the plunges
+//!   R the step is sqrt(8 R e), where e is the tolerance. The blade is longer than the step, so that the plunges
 //!   overlap; beyond the step it lies outside the curve, along its tangent.
 //! - `refuse`: an error.
 //!
@@ -29,7 +29,7 @@ use crate::analysis::plunge::{Leeway, Plunge, overlaps};
 use crate::analysis::tight::{TightCurve, joined, tight_curves};
 use crate::diagnostic::Diagnostics;
 use crate::geom::region::Ray;
-use crate::geom::{Point, left, polyline, ring};
+use crate::geom::{Point, left, ring};
 use crate::ir::toolpath::{OrientationMode, Run, Shape, Side, Toolpath};
 use crate::machine::TightCurves;
 
@@ -148,19 +148,21 @@ fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, ar
         && deviation.turned <= COVERED_TURN
         && !is_refused
         && !is_part
-        && leads_along(run)
+        && leads_along(run, around)
         && deviation.distance < worst_overcut(run, curve, around)
 }
 
-/// True if both the first and the last chord of a run lead along its blade; across it, the blade would cut through the line.
-fn leads_along(run: &Run) -> bool {
+/// True if a run leads along its blade at both ends; across it, the blade would cut through the line. Its direction at an end is
+/// that as far as it lies on the blade: the steps of rounded points turn single chords.
+fn leads_along(run: &Run, around: &Surroundings) -> bool {
     let points = &run.points;
-    let blade = Plunge::over(points).blade();
-    let across = |(from, to): (Point, Point)| {
-        polyline::direction(from, to).is_some_and(|along| along.dot(&blade) < ALONG * blade.norm())
-    };
+    let blade = Plunge::over(points);
+    let is_on = |point: &Point| blade.distance(*point) <= around.tolerance;
     let last = points.len() - 1;
-    ![(points[0], points[1]), (points[last - 1], points[last])].into_iter().any(across)
+    let ahead = (1..=last).find(|&i| !is_on(&points[i])).map_or(last, |i| (i - 1).max(1));
+    let behind = (0..last).rev().find(|&i| !is_on(&points[i])).map_or(0, |i| (i + 1).min(last - 1));
+    let ends = [points[ahead] - points[0], points[last] - points[behind]];
+    ends.iter().all(|along| along.dot(&blade.blade()) >= ALONG * along.norm() * blade.blade().norm())
 }
 
 /// True if an open run ends so near to its start that the blade has no room to move on it.

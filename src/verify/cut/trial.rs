@@ -131,9 +131,9 @@ impl Tracer<'_> {
     /// Follows a cut along the line with `block`; a plunge cut along all lines near it.
     pub(in crate::verify) fn trace(&self, cut: &Cut, block: u32) -> Trace {
         let trials = if cut.is_plunge_cut() {
-            self.follow_all(cut, &self.about(cut, |line| self.is_named(line, block)))
+            self.follow_all(cut, &self.about(cut, |line| self.is_named(line, block)), block)
         } else {
-            self.follow_all(cut, &self.meant(cut, |line| self.is_named(line, block)))
+            self.follow_all(cut, &self.meant(cut, |line| self.is_named(line, block)), block)
         };
         Trace { trials, block }
     }
@@ -176,7 +176,7 @@ impl Tracer<'_> {
             // The named line is tried even if many others lie nearer.
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials.retain(|named| candidates.iter().all(|other| other.line != named.line));
-            trials.extend(self.follow_all(cut, &candidates));
+            trials.extend(self.follow_all(cut, &candidates, trace.block));
             self.weigh(&mut trials, coverage);
         }
         // A plunge is meant for a line that its blade lies over, however little of it is uncut. Lines that it crosses count
@@ -259,8 +259,8 @@ impl Tracer<'_> {
     }
 
     /// Trials of a cut on its candidates. If a plunge cut lies over one of the lines, it is not followed along any.
-    fn follow_all(&self, cut: &Cut, candidates: &[Candidate]) -> Vec<Trial> {
-        let lay = |candidate| if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate) } else { None };
+    fn follow_all(&self, cut: &Cut, candidates: &[Candidate], block: u32) -> Vec<Trial> {
+        let lay = |candidate| if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate, block) } else { None };
         let lain: Vec<Option<Trial>> = candidates.iter().map(lay).collect();
         if lain.iter().flatten().any(|trial| self.lies_over(cut, trial)) {
             return lain.into_iter().flatten().collect();
@@ -337,13 +337,19 @@ impl Tracer<'_> {
         Near { reach: 2.0 * self.width + REACH, beside: self.allowed, beyond }
     }
 
-    /// Lays a plunge cut over a line near a candidate; `None` if it is too far away to cut any of it.
-    fn lay(&self, cut: &Cut, &Candidate { line: index, station, .. }: &Candidate) -> Option<Trial> {
+    /// Lays a plunge cut over a line near a candidate; `None` if it is too far away to cut any of it. Of several stretches under
+    /// the blade it is compared with the one that its row names, else with the longest.
+    fn lay(&self, cut: &Cut, &Candidate { line: index, station, .. }: &Candidate, block: u32) -> Option<Trial> {
         let line = &self.reference.lines[index];
         let blade = cut.blade();
         let stretches = covered(line, blade, station, self.near());
         let whole = [stretches.first()?[0], stretches.last()?[1]];
-        let longest = stretches.iter().copied().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        // In a hole narrower than the blade it also lies over places that it is not meant for.
+        let named = |stretch: &[f64; 2]| line.length_named(block, *stretch);
+        let main = stretches
+            .iter()
+            .copied()
+            .max_by(|a, b| named(a).total_cmp(&named(b)).then((a[1] - a[0]).total_cmp(&(b[1] - b[0]))))?;
         // A blade covers a curve only if the curve is the whole line.
         let is_all = whole[1] - whole[0] >= line.length() - 2.0 * self.allowed;
         let lain = (stretches.len() > 1 && is_all).then(|| Lain::new(line, cut, whole)).and_then(|lain| {
@@ -351,11 +357,10 @@ impl Tracer<'_> {
             let over = Plunged::over(line, cut, ends, whole, self.allowed);
             self.permits(&over, line, whole).then_some((lain, over))
         });
-        let (lain, over) =
-            lain.map_or_else(|| (Lain::new(line, cut, longest), None), |(lain, over)| (lain, Some(over)));
+        let (lain, over) = lain.map_or_else(|| (Lain::new(line, cut, main), None), |(lain, over)| (lain, Some(over)));
         // Stretches where the line lies on the blade itself, from the first place to the last.
         let thin = Near { beside: self.near().beyond + ON_SHARE * self.reference.tolerance, ..self.near() };
-        let [low, high] = if over.is_some() { whole } else { longest };
+        let [low, high] = if over.is_some() { whole } else { main };
         let mut on = covered(line, blade, station, thin);
         on.retain(|[a, b]| *a >= low && *b <= high);
         let core = on.iter().copied().reduce(|[a, _], [_, b]| [a, b]);

@@ -312,6 +312,18 @@ impl<'a> Line<'a> {
         self.chords_between(ends).any(|chord| self.block(chord % self.chords()) == block)
     }
 
+    /// Length between two stations that is on chords of a block, mm.
+    pub(in crate::verify) fn length_named(&self, block: u32, [low, high]: [f64; 2]) -> f64 {
+        let laps = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        let on = |chord: usize| {
+            let lap = laps + (chord / self.chords()) as f64 * self.length();
+            let [from, to] = [0, 1].map(|end| self.station(chord % self.chords() + end) + lap);
+            (to.min(high) - from.max(low)).max(0.0)
+        };
+        let named = self.chords_between([low, high]).filter(|chord| self.block(chord % self.chords()) == block);
+        named.map(on).sum()
+    }
+
     /// Last vertex before a station, which on a ring may lie on any lap; `None` at the start of an open line.
     pub(in crate::verify) fn vertex_before(&self, station: f64) -> Option<usize> {
         let lap = if self.ring { station.rem_euclid(self.length()) } else { station };
