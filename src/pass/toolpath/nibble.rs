@@ -2,12 +2,16 @@
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::{BladePlacement, overlaps};
+use crate::analysis::plunge::{BladePlacement, PASSING_SHARE, overlaps};
 use crate::analysis::tight::TightCurve;
 use crate::geom::polyline;
 use crate::ir::toolpath::Run;
 
-/// Share of the tolerance by which a plunge may miss a vertex of its curve. Points that are rounded to a unit leave a line by
+/// Number of bisection steps that equalise plunges: to a thousandth of a curve, finer than its chords.
+const HALVINGS: usize = 10;
+/// Longest step of rounded points, in tolerances.
+const STEP_TOLERANCES: f64 = 1.5;
+/// Share of the tolerance by which a spread plunge may miss a vertex of its curve. Points that are rounded to a unit leave a line by
 /// nearly the whole tolerance of that unit.
 const PLUNGE_SHARE: f64 = 0.999;
 /// Difference of lengths that count as equal, mm: rounding.
@@ -47,7 +51,7 @@ pub(super) fn nibbled(run: &Run, curves: &[TightCurve], around: &Surroundings) -
         if from > at {
             add([at, from], false);
         }
-        for plunge in plunges(&way, [from, to], PLUNGE_SHARE * around.tolerance) {
+        for plunge in plunges(&way, [from, to], around.tolerance) {
             add(plunge, true);
         }
         at = to;
@@ -102,10 +106,70 @@ pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings
     plunges.fold(0.0, f64::max)
 }
 
+/// Plunges that cut the stretch between two vertices. A plunge along a single step of rounded points leads elsewhere than the
+/// line: where there would be one, the plunges are spread instead.
+fn plunges(way: &Way, ends: [usize; 2], tolerance: f64) -> Vec<[usize; 2]> {
+    let evened = evened(way, ends, PASSING_SHARE * tolerance);
+    let length = |[from, to]: [usize; 2]| way.station(to.cast_signed()) - way.station(from.cast_signed());
+    if evened.iter().all(|&plunge| length(plunge) > STEP_TOLERANCES * tolerance) {
+        return evened;
+    }
+    spread(way, ends, PLUNGE_SHARE * tolerance)
+}
+
+/// Plunges that cut the stretch between two vertices, each within `allowed` mm of its chord: the fewest possible, with the
+/// longest of them as short as possible, so that the last is not a remnant which the previous one has cut already.
+fn evened(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
+    let length = way.station(last.cast_signed()) - way.station(first.cast_signed());
+    let no_longer_than = |longest: f64| {
+        let (mut plunges, mut from) = (Vec::new(), first);
+        while from < last {
+            let to = plunge_end(way, [from, last], [longest, allowed]);
+            plunges.push([from, to]);
+            from = to;
+        }
+        plunges
+    };
+    let fewest = no_longer_than(length).len();
+    let (mut low, mut high) = (0.0, length);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if no_longer_than(middle).len() > fewest {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    no_longer_than(high)
+}
+
+/// Farthest vertex that a plunge from another vertex reaches, at least one chord on: at most `longest` mm away, with all
+/// vertices between within `allowed` mm of the plunge.
+fn plunge_end(way: &Way, [from, last]: [usize; 2], [longest, allowed]: [f64; 2]) -> usize {
+    let is_near = |to: usize| {
+        let (a, b) = (way.vertex(from), way.vertex(to));
+        (from + 1..to).all(|vertex| polyline::distance_to_segment(way.vertex(vertex), a, b) <= allowed)
+    };
+    let length = |to: usize| way.station(to.cast_signed()) - way.station(from.cast_signed());
+    let is_in = |to: usize| to <= last && length(to) <= longest && is_near(to);
+    // Exponential search, then bisection: each test costs as much as its length.
+    let (mut to, mut step) = (from + 1, 1);
+    while is_in(to + step) {
+        (to, step) = (to + step, 2 * step);
+    }
+    while step > 0 {
+        if is_in(to + step) {
+            to += step;
+        }
+        step /= 2;
+    }
+    to
+}
+
 /// Plunges that cut the stretch between two vertices, each within `allowed` mm of its chord: the fewest possible, with the
 /// shortest of them as long as possible: a short one may be a remnant that its neighbours have cut already, or a single step
 /// of rounded points, which leads elsewhere than the line.
-fn plunges(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
+fn spread(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
     let length = |from: usize, to: usize| way.station(to.cast_signed()) - way.station(from.cast_signed());
     // Best plunges up to each vertex.
     let mut best: Vec<Option<Reached>> = vec![None; last - first + 1];

@@ -6,7 +6,7 @@
 //! - `follow`: cut without a lift. A run with such a curve gets the tangent mode, since the blade cannot be its chord. A run
 //!   without room for the blade to move, such as a rounded notch, is nibbled: a single plunge would cut straight over it.
 //! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it. On an arc of radius
-//!   R the step is sqrt(8 R e), where e is the tolerance. The blade is longer than the step, so that the plunges
+//!   R the step is sqrt(8 R e), where e is 0.9 of the tolerance. The blade is longer than the step, so that the plunges
 //!   overlap; beyond the step it lies outside the curve, along its tangent.
 //! - `refuse`: an error.
 //!
