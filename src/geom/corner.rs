@@ -59,8 +59,8 @@ impl<F: Fn(usize) -> Point> Corners<F> {
     ///
     /// A curve drawn with points as close as its unit climbs in steps that each turn by 45 degrees or more. There a corner must
     /// also turn when seen from neighbours farther away, by more than the curve on either side of it does, and stand out by
-    /// more than rounding. Of several such vertices within the distance of those neighbours the sharpest is the corner; a vertex
-    /// that is none itself hides no other.
+    /// more than rounding. Of several such vertices within the distance of those neighbours the sharpest is the corner; a
+    /// vertex that is none itself hides no other.
     pub fn is_at(&self, vertex: usize) -> bool {
         let Some([from, at, to]) = self.turned(vertex) else { return false };
         let far = WINDOWS[WINDOWS.len() - 1] * self.unit;

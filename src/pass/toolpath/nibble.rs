@@ -11,15 +11,15 @@ use crate::ir::toolpath::Run;
 const HALVINGS: usize = 10;
 /// Longest step of rounded points, in tolerances.
 const STEP_TOLERANCES: f64 = 1.5;
-/// Share of the tolerance by which a spread plunge may miss a vertex of its curve. Points that are rounded to a unit leave a line by
-/// nearly the whole tolerance of that unit.
+/// Share of the tolerance by which a spread plunge may miss a vertex of its curve. Points that are rounded to a unit leave a
+/// line by nearly the whole tolerance of that unit.
 const PLUNGE_SHARE: f64 = 0.999;
 /// Difference of lengths that count as equal, mm: rounding.
 const LENGTH_EPSILON: f64 = 1e-6;
 /// Least length of a nibbled stretch of short chords, in tolerances: over a shorter one rounding may turn the line.
 const LEAST_TOLERANCES: f64 = 8.0;
-/// Number of vertices behind the start of a plunge up to which each is tried as its end, and the step behind them: each test costs
-/// as much as its length.
+/// Number of vertices behind the start of a plunge up to which each is tried as its end, and the step behind them: each test
+/// costs as much as its length.
 const NEAR: usize = 64;
 const FAR_STEP: usize = 8;
 /// Number of vertices behind the end of a plunge at which it might end as well: more than a step of a rounded line has.

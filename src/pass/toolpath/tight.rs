@@ -152,8 +152,8 @@ fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, ar
         && deviation.distance < worst_overcut(run, curve, around)
 }
 
-/// True if a run leads along its blade at both ends; across it, the blade would cut through the line. Its direction at an end is
-/// that as far as it lies on the blade: the steps of rounded points turn single chords.
+/// True if a run leads along its blade at both ends; across it, the blade would cut through the line. Its direction at an end
+/// is that as far as it lies on the blade: the steps of rounded points turn single chords.
 fn leads_along(run: &Run, around: &Surroundings) -> bool {
     let points = &run.points;
     let blade = Plunge::over(points);

@@ -337,8 +337,8 @@ impl Tracer<'_> {
         Near { reach: 2.0 * self.width + REACH, beside: self.allowed, beyond }
     }
 
-    /// Lays a plunge cut over a line near a candidate; `None` if it is too far away to cut any of it. Of several stretches under
-    /// the blade it is compared with the one that its row names, else with the longest.
+    /// Lays a plunge cut over a line near a candidate; `None` if it is too far away to cut any of it. Of several stretches
+    /// under the blade it is compared with the one that its row names, else with the longest.
     fn lay(&self, cut: &Cut, &Candidate { line: index, station, .. }: &Candidate, block: u32) -> Option<Trial> {
         let line = &self.reference.lines[index];
         let blade = cut.blade();
