@@ -217,7 +217,7 @@ mod tests {
     fn only_corners_hide_turns_and_both_directions_have_the_same() {
         let (limit, unit) = (FRAC_PI_4 / 2.0, 0.1);
         let mut hidden_by_none = 0;
-        for seed in 0..200 {
+        for seed in 0..1000 {
             let mut random = fastrand::Rng::with_seed(seed);
             let mut at = [0_i32; 2];
             let points = (0..60).map(|_| {
