@@ -45,7 +45,7 @@ impl Where {
 /// The section of short answers.
 pub(super) fn section(about: &About, out: &mut Markup) {
     out.open("section", &[("id", "short")]).element("h2", &[], "In short").open("table", &[("class", "facts")]);
-    row("Before you cut", findings::to_do(about), out);
+    row("To do", findings::to_do(about), out);
     if about.record.ticks() > 0 {
         off(about, out);
         let (piece, ticks) = pieces::longest(about);
