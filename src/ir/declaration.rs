@@ -98,6 +98,15 @@ impl Kind {
         }
     }
 
+    /// Unit of the size, with what that is where the blade is not off its line.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Nibbled => "mm long",
+            Self::Shortened => "mm too short",
+            Self::Overcut | Self::Plunge | Self::Surplus | Self::Swing | Self::Lift => "mm",
+        }
+    }
+
     /// Meaning of the kind and of its size, in a sentence for people.
     pub fn about(self) -> &'static str {
         match self {

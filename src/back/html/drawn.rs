@@ -2,7 +2,7 @@
 
 use crate::back::target::Context;
 use crate::geom::Point;
-use crate::ir::marker::{Notch, NotchKind};
+use crate::ir::marker::{Notch, NotchKind, OutlineNotch};
 use crate::picture::Columns;
 
 /// Unit of coordinates, mm.
@@ -32,13 +32,14 @@ impl Lines {
         for (part, piece) in (0..).zip(&context.marker.pieces) {
             for contour in &piece.contours {
                 let kind = if contour.closed { CLOSED } else { OPEN };
-                lines.add(kind, part, context.marker.points(contour));
+                let points = context.marker.points(contour);
+                for notch in &piece.outline_notches {
+                    lines.add_notch(notch, part, &points);
+                }
+                lines.add(kind, part, points);
             }
             for notch in &piece.notches {
                 lines.add(NOTCH, part, strokes(notch));
-            }
-            for notch in &piece.outline_notches {
-                lines.add(NOTCH, part, vec![notch.mouth[0], notch.tip, notch.mouth[1]]);
             }
             for drill in &piece.drills {
                 lines.add(HOLE, part, vec![drill.at]);
@@ -62,6 +63,19 @@ impl Lines {
         self.parts.push(part);
         self.counts.push(points.len() as u32);
         self.points.extend(points);
+    }
+
+    /// Adds the stretch of an outline that a notch of it makes, from one end of its mouth to the other.
+    fn add_notch(&mut self, notch: &OutlineNotch, part: u32, outline: &[Point]) {
+        let ring = &outline[..outline.len().saturating_sub(1)];
+        let place = |first: usize, on: usize| ring[(first + on) % ring.len()];
+        let segments = notch.segments as usize;
+        let is_at = |at: Point, mouth: Point| (at - mouth).norm() < UNIT;
+        let starts =
+            |&first: &usize| is_at(place(first, 0), notch.mouth[0]) && is_at(place(first, segments), notch.mouth[1]);
+        if let Some(first) = (0..ring.len()).find(starts) {
+            self.add(NOTCH, part, (0..=segments).map(|on| place(first, on)).collect());
+        }
     }
 
     /// Adds the columns.

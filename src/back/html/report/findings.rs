@@ -111,6 +111,9 @@ pub(super) fn jump_to(about: &About, entry: &Declaration, words: &str, out: &mut
 pub(super) fn messages(about: &About, out: &mut Markup) {
     let groups = groups(about.outcome.messages);
     out.open("section", &[("id", "messages")]).element("h2", &[], "Messages");
+    if groups.is_empty() {
+        out.element("p", &[], "There are none.");
+    }
     for Group { code, messages } in groups {
         let severity = match code.severity {
             Severity::Error => "error",
@@ -341,7 +344,7 @@ pub(super) fn deviations(about: &About, out: &mut Markup) {
     for Total { kind, count, worst_mm, .. } in about.outcome.declared {
         let [one, many] = kind.words();
         let name = if *count == 1 { one } else { many };
-        let words = format!("{count} {name}, at most {} mm: {}", fixed(*worst_mm, 2), kind.about());
+        let words = format!("{count} {name}, at most {} {}: {}", fixed(*worst_mm, 2), kind.unit(), kind.about());
         out.element("p", &[("class", "hint")], &words);
     }
     let columns = ["Deviation", "Piece", "Into", "#Size, mm", "Where"];

@@ -11,8 +11,8 @@ use crate::picture::Markup;
 use crate::units::number::{counted, fixed};
 
 const PERCENT: f64 = 100.0;
-/// Number of activities that are named as what the time is spent on.
-const MOST_SPENT: usize = 3;
+/// Least share of the time of an activity that is named.
+const LEAST_SPENT: f64 = 0.05;
 
 /// Where the blade is off its drawn line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,9 +80,7 @@ fn off(about: &About, out: &mut Markup) {
     for (place, count) in Where::ALL.into_iter().zip(counts) {
         let is_there = |entry: &&Declaration| entry.kind.is_off() && Where::of(about, entry) == place;
         let Some(worst) = entries.iter().find(is_there) else {
-            if place != Where::Aside {
-                row(place.name(), "none is declared", out);
-            }
+            row(place.name(), "nowhere, as declared", out);
             continue;
         };
         let part = match place {
@@ -93,7 +91,7 @@ fn off(about: &About, out: &mut Markup) {
         let words = format!("{} mm{}, with a cut of {cutter}", fixed(worst.size_mm(), 2), part.unwrap_or_default());
         out.open("tr", &[]).element("th", &[("scope", "row")], place.name()).open("td", &[]).text(&words).text(" ");
         jump_to(about, worst, &format!("{}: {words}", place.name()), out);
-        out.text(&format!(" {}", counted(count, "place"))).close("td").close("tr");
+        out.text(&format!(" ({})", counted(count, "place"))).close("td").close("tr");
     }
 }
 
@@ -102,7 +100,8 @@ fn spent(about: &About) -> String {
     let sums = &about.record.all;
     let mut parts: Vec<(&str, u64)> = Sums::PARTS.into_iter().zip(sums.ticks).collect();
     parts.sort_by_key(|(_, ticks)| std::cmp::Reverse(*ticks));
-    let share = |ticks: u64| fixed(PERCENT * ticks as f64 / sums.total() as f64, 1);
-    let said = parts.iter().take(MOST_SPENT).map(|&(name, ticks)| format!("{name} {} %", share(ticks)));
+    let shares = parts.iter().map(|&(name, ticks)| (name, ticks as f64 / sums.total() as f64));
+    let said = shares.filter(|(_, share)| *share >= LEAST_SPENT);
+    let said = said.map(|(name, share)| format!("{name} {} %", fixed(PERCENT * share, 1)));
     said.collect::<Vec<_>>().join(", ")
 }

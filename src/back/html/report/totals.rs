@@ -100,7 +100,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
     for Total { kind, count, worst_mm, .. } in about.outcome.declared {
         let [one, many] = kind.words();
         let name = if *count == 1 { one } else { many };
-        rows.push(("Declared", format!("{count} {name}, at most {} mm", fixed(*worst_mm, 2))));
+        rows.push(("Declared", format!("{count} {name}, at most {} {}", fixed(*worst_mm, 2), kind.unit())));
     }
     table::facts(out, "totals", "Totals", &rows);
     if sums.total() > 0 {
