@@ -175,6 +175,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("search", "shares out searches over all pieces, for several passes"),
     ("sides", "joins strokes of an outline that were rounded apart, for the pass that welds"),
     ("severed", "finds slits that meet, for the pass that warns"),
+    ("stray", "finds short strokes on no edge, for the pass that warns"),
     ("sewn", "recognises files of sewing machines"),
     ("spare", "leaves out plunges of a nibbled curve that cut nothing new"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),

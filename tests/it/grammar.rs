@@ -186,7 +186,8 @@ struct Blocks<'a> {
 impl Blocks<'_> {
     /// Leaves out what is no block: a byte order mark, a line of per cent signs, the list of labels behind M0, and a block that the excerpt cuts.
     fn take_end(&mut self) {
-        self.at = if self.bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        self.at = self.bytes.iter().position(|&byte| byte != 0).unwrap_or(0);
+        self.at += if self.bytes[self.at..].starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         while self.bytes.get(self.at).is_some_and(|&byte| byte == b'%' || byte.is_ascii_whitespace()) {
             self.at += 1;
         }
@@ -205,7 +206,7 @@ impl Blocks<'_> {
                 b'/' => deleted = !deleted,
                 _ if deleted => {}
                 b'*' => return Some(block),
-                b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a => {}
+                b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a | 2 | 3 | 0x11 | 0x13 => {}
                 _ => block.push(char::from(byte)),
             }
         }

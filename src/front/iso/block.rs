@@ -2,6 +2,7 @@
 
 use nom::Err;
 
+use super::passed::Passed;
 use super::run::Run;
 use super::syntax::{self, Code, Fault, FaultKind, Point, Words};
 use crate::diagnostic::{Diagnostic, code};
@@ -18,6 +19,7 @@ pub(super) struct Blocks<'a> {
     ended: bool,
     /// A line of the file that contains only `%`: the first line, otherwise the last.
     frame: Option<Span>,
+    passed: Passed,
     /// Buffers for the current block without its blanks, and for the offsets of its bytes.
     text: Vec<u8>,
     origins: Vec<usize>,
@@ -42,6 +44,11 @@ pub(super) struct Block {
 /// Line breaks, blanks, NUL and the end mark of old systems have no meaning outside text.
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a)
+}
+
+/// Bytes that a serial line adds between blocks: STX, ETX, XON and XOFF. They are rare, so that only the slow path knows them.
+fn is_of_line(byte: u8) -> bool {
+    matches!(byte, 0x02 | 0x03 | 0x11 | 0x13)
 }
 
 /// Blanks that may replace a lost digit. Only line breaks are permitted inside numbers, and NULs and end marks only between
@@ -76,7 +83,9 @@ impl Gaps {
 impl<'a> Blocks<'a> {
     /// Starts before the first block.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        let mut at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        // The leader of a paper tape is NULs.
+        let leader = bytes.iter().position(|&byte| byte != 0).unwrap_or(0);
+        let mut at = if bytes[leader..].starts_with(BYTE_ORDER_MARK) { leader + BYTE_ORDER_MARK.len() } else { 0 };
         let mut frame = None;
         let line = |start: usize, end: usize| Some(Span { start: start as u32, end: end as u32, block: 0 });
         let is_break = |byte: &u8| matches!(byte, b'\r' | b'\n');
@@ -94,12 +103,18 @@ impl<'a> Blocks<'a> {
         } else {
             bytes
         };
-        Self { bytes, at, number: 0, ended: true, frame, text: Vec::new(), origins: Vec::new() }
+        let (passed, text, origins) = (Passed::default(), Vec::new(), Vec::new());
+        Self { bytes, at, number: 0, ended: true, frame, passed, text, origins }
     }
 
     /// A line at the start or the end of the file that contains only `%`, written for other machines.
     pub(super) fn frame(&self) -> Option<Span> {
         self.frame
+    }
+
+    /// The bytes of a serial line and the deleted passages so far.
+    pub(super) fn passed(&self) -> &Passed {
+        &self.passed
     }
 
     /// Offset of the next byte to read.
@@ -227,12 +242,13 @@ impl<'a> Blocks<'a> {
                 }
                 b'/' => match memchr::memchr(b'/', &self.bytes[at + 1..]) {
                     Some(length) => {
-                        let passage = &self.bytes[at + 1..at + 1 + length];
-                        asterisks += memchr::memchr_iter(b'*', passage).count() as u32;
+                        let span = Span { start: at as u32, end: (at + length + 2) as u32, block: self.number + 1 };
+                        asterisks += self.passed.delete(&self.bytes[at + 1..at + 1 + length], span);
                         at += length + 1;
                     }
                     None => unclosed = Some(at),
                 },
+                _ if is_of_line(byte) && text.is_empty() => self.passed.see_line(byte, at, self.number + 1),
                 _ if is_blank(byte) => text.last().into_iter().for_each(|_| gaps.see(byte, at)),
                 _ => {
                     text.last().into_iter().for_each(|&last| gaps.close(last, byte));

@@ -3,6 +3,8 @@
 //! Files interrupt an outline for slit notches and corner lifts. If the knife plunges at the end of an open chain of the same
 //! piece, that chain continues; a map from end points to chains makes this a single look-up.
 
+pub(super) mod look;
+
 use std::collections::HashMap;
 
 use super::chain::{Chain, Overcut};
@@ -105,11 +107,6 @@ impl Draft {
     /// True if an open chain ends at the knife.
     pub(super) fn is_at_open_end(&self) -> bool {
         self.open.contains_key(&bits(self.at))
-    }
-
-    /// Position of the knife, mm.
-    pub(super) fn at(&self) -> Point {
-        self.at
     }
 
     /// Moves the knife to a point, mm.

@@ -55,6 +55,24 @@ impl Uncut {
     }
 }
 
+/// The finding on a full circle with the knife up.
+pub(super) fn circle_in_air(span: Span) -> Diagnostic {
+    let message = "a full circle is passed with the knife up, and nothing is cut";
+    let finding = Diagnostic::new(&code::ISO_UNCUT_PLACES, message).at(span);
+    finding.hint("an M14 may be missing before it: then a piece or a cut-out is lost")
+}
+
+/// The error for a file without cuts that draws with D1 and D2, as photoplots do.
+pub(super) fn photoplot(bytes: &[u8]) -> Option<Diagnostic> {
+    let has = |codes: [&[u8]; 2]| codes.iter().any(|code| memchr::memmem::find(bytes, code).is_some());
+    if !has([b"D1*", b"D01*"]) || !has([b"D2*", b"D02*"]) {
+        return None;
+    }
+    let message = "lines are drawn with D1 and D2 (RS-274D), and nothing is cut";
+    let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, message);
+    Some(finding.hint("let the CAD write a cut file, with M14 and M15 for the knife, or a plot in HPGL"))
+}
+
 /// The fault of a slit that begins at `begun` and has no end before something at `at`.
 pub(super) fn open_slit(begun: Span, before: &str, at: Span) -> Diagnostic {
     let message = format!("the slit that begins in block {} has no M15 before {before}", begun.block);

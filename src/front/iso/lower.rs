@@ -1,5 +1,8 @@
-//! The meaning of a file: executes block after block and builds the marker. [`texts`] reads labels and messages.
+//! The meaning of a file: executes block after block and builds the marker. [`texts`] reads labels and messages, [`see`]
+//! looks for damage in its blocks, [`knife`] lowers and lifts the knife.
 
+mod knife;
+mod see;
 mod texts;
 
 use std::ops::ControlFlow;
@@ -10,10 +13,13 @@ use super::at_place::{AtPlace, Hole, Texts};
 use super::block::Blocks;
 use super::decimal;
 use super::draft::{Draft, LabelId};
+use super::lost;
 use super::meaning::{Meaning, meaning, name, whole};
 use super::misplaced::{self, Head};
+use super::relative;
 use super::run::Run;
 use super::start::{Begun, Start, Twice};
+use super::strokes::Strokes;
 use super::syntax::{Code, Point};
 use super::tally::Tally;
 use super::title::Title;
@@ -65,6 +71,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         head: Head::default(),
         start: Start::default(),
         twice: Twice::default(),
+        strokes: Strokes::default(),
         last_cut: None,
         out,
     };
@@ -108,6 +115,7 @@ struct Lowering<'a> {
     head: Head,
     start: Start,
     twice: Twice,
+    strokes: Strokes,
     /// Offset after the last block that cuts or drills; `None` until it is searched for.
     last_cut: Option<usize>,
     out: &'a mut Diagnostics,
@@ -132,15 +140,8 @@ impl Lowering<'_> {
                 let Some(block) = self.blocks.next() else { break };
                 last = block.span;
                 match block.words {
-                    Ok(words) => {
-                        if let Some(point) = words.point.filter(|_| words.codes.is_empty()) {
-                            self.see_place(point, block.span);
-                        }
-                        let (job, is_down) = (self.job, self.knife.is_down());
-                        let obeys = |code| job.profile.codes.is_empty() || job.profile.obeys(&name(code));
-                        if let Some(fault) = misplaced::behind_place(&words, is_down, block.span, obeys) {
-                            self.out.push(fault);
-                        }
+                    Ok(mut words) => {
+                        self.see_words(&mut words, block.span);
                         self.obey(&words.codes, words.point, block.span)
                     }
                     Err(fault) => {
@@ -208,13 +209,17 @@ impl Lowering<'_> {
             self.tally.ignore(code, "bite size", span);
         }
         self.tally.report(self.out);
+        self.strokes.report(self.out);
+        self.blocks.passed().report(self.out);
         self.alone.report(self.source.bytes(), self.blocks.torn(last), self.out);
-        let found = [decimal::finding(&self.decimals, self.source.bytes()), self.twice.finding()];
+        let found =
+            [decimal::finding(&self.decimals, self.source.bytes()), self.twice.finding(), relative::finding(&marker)];
         found.into_iter().flatten().for_each(|finding| self.out.push(finding));
         if marker.pieces.is_empty() && !self.out.has_errors() {
             let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill");
-            self.out
-                .push(finding.hint("export the marker with its cut lines, or see what `codes` of the profile ignores"));
+            let photoplot = lost::photoplot(self.source.bytes());
+            let hint = "export the marker with its cut lines, or see what `codes` of the profile ignores";
+            self.out.push(photoplot.unwrap_or_else(|| finding.hint(hint)));
         }
         // A point beyond a kilometre makes further findings on size redundant.
         if self.far.is_none() {
@@ -223,14 +228,6 @@ impl Lowering<'_> {
             check_plausible(sized, &marker, self.out);
         }
         marker
-    }
-
-    /// Looks for damage in a block of coordinates only.
-    fn see_place(&mut self, point: Point, span: Span) {
-        self.alone.see(point, span);
-        if self.knife.is_down() {
-            self.decimals.see(self.source.slice(span), span);
-        }
     }
 
     /// Executes a block of coordinates only.
@@ -303,13 +300,7 @@ impl Lowering<'_> {
                 Meaning::Label => asked.label = Some(if obeyed { Texts::Kept } else { Texts::Ignored }),
                 _ if !obeyed => {}
                 Meaning::Down => self.down(span),
-                Meaning::Up => {
-                    self.fresh = false;
-                    if self.knife.is_down() {
-                        self.start.serve();
-                    }
-                    self.knife.up(self.out);
-                }
+                Meaning::Up => self.up(),
                 Meaning::Piece => self.piece(code, span),
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
                 Meaning::Drill(tool) => (asked.drill, asked.names_end) = (Some(tool), names_end()),
@@ -383,21 +374,6 @@ impl Lowering<'_> {
         self.job.profile.codes.is_empty() || self.job.profile.obeys(&name(code))
     }
 
-    fn down(&mut self, span: Span) {
-        if self.place.contains(&None) && !self.damaged {
-            self.alone.down_without_place(self.place != [None, None], span);
-        }
-        if self.place != [None, None] && !self.knife.is_down() {
-            self.start.finding(span).into_iter().for_each(|finding| self.out.push(finding));
-        }
-        self.head.pass();
-        // This position is the start of a contour, not the second point of a label.
-        self.second = None;
-        self.awaiting = None;
-        self.fresh = false;
-        self.knife.down(span, self.out);
-    }
-
     /// Records a piece or a label: the contour behind it needs a start, unless an interrupted one goes on.
     fn begin(&mut self, begun: Begun, span: Span) {
         let is_amid = self.knife.is_down() || self.knife.is_at_open_end();
@@ -444,6 +420,9 @@ impl Lowering<'_> {
         let from = self.knife.at();
         let to = self.locate(point, span);
         if !self.knife.is_down() {
+            if point.has_centre() && from == to {
+                self.out.push(lost::circle_in_air(span));
+            }
             return self.land(to, span);
         }
         let unit = self.unit.mm();
@@ -563,17 +542,17 @@ mod tests {
             |name: &'static str| move |job: &mut Job| _ = job.profile.codes.insert(name.to_owned(), CodeUse::Ignore);
         assert_eq!(check(SQUARE, ignore("M19"), &[]).pieces[0].notches.len(), 0);
         assert_eq!(check(SQUARE, |_| {}, &[]).pieces[0].notches.len(), 1);
-        check("H1*E*E*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
-        check("H1*E*E*X0Y0*M14*X500Y0*M15*M0*", ignore("E"), &[]);
+        check("H1*G71*E*E*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*G71*E*E*X0Y0*M14*X500Y0*M15*M0*", ignore("E"), &[]);
         let feed = |marker: Marker| marker.pieces[0].feed;
-        let slow = "H1*F30*X0Y0*M14*X500Y0*M15*M0*";
+        let slow = "H1*G71*F30*X0Y0*M14*X500Y0*M15*M0*";
         assert_eq!(feed(check(slow, |_| {}, &[])), Some(12.7));
         assert_eq!(feed(check(slow, ignore("F"), &[])), None);
     }
 
     #[test]
     fn equal_points_of_the_file_are_equal_to_the_bit() {
-        let marker = check("X3Y-0*M14*X1003Y7*X+3.0Y0*M15*M0*", |_| {}, &[]);
+        let marker = check("G71*X3Y-0*M14*X1003Y7*X+3.0Y0*M15*M0*", |_| {}, &[]);
         assert!(marker.pieces[0].contours[0].closed);
     }
 
@@ -585,14 +564,14 @@ mod tests {
 
     #[test]
     fn an_origin_means_nothing_before_the_first_place() {
-        check("H1*M70*G04*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
-        check("H1*X0Y0*M70*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
-        check("H1*G04X5Y5*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*G71*M70*G04*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
+        check("H1*G71*X0Y0*M70*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*G71*G04X5Y5*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
     }
 
     #[test]
     fn a_bite_longer_than_the_marker_changes_nothing() {
-        check("H1*ZX984251*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
-        check("H1*ZX400*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*G71*ZX984251*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
+        check("H1*G71*ZX400*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
     }
 }

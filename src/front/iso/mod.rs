@@ -5,11 +5,13 @@
 //! notches, equal points have equal bits, and texts are never executed. Ignored codes are reported with their count. Never
 //! closes a contour that the file leaves open, and never recognises a notch by its shape: that is left to the passes.
 //!
-//! Arcs become chords. [`block`] splits the bytes into blocks, plain ones in [`run`]s; [`syntax`] is the grammar of a block,
-//! [`mod@meaning`] the table of codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end. [`lower`]
-//! executes the file, [`draft`] assembles its cuts from [`chain`]s of vertices ([`vertex`]), [`lost`] finds signs of lost knife
-//! codes, [`alone`] of lost coordinates, [`start`] of lost starts, [`misplaced`] and [`decimal`] of changed characters, and [`owner`]
-//! assigns slits to pieces in files without piece numbers.
+//! Arcs become chords. [`block`] splits the bytes into blocks, plain ones in [`run`]s, and passes over what [`passed`]
+//! records; [`syntax`] is the grammar of a block, [`mod@meaning`] the table of codes, [`label`] the layouts of text,
+//! [`trailer`] the list of labels at the end. [`lower`] executes the file, [`draft`] assembles its cuts from [`chain`]s of
+//! vertices ([`vertex`]). [`lost`] finds signs of lost knife codes, [`strokes`] of lost strokes, [`alone`] of lost
+//! coordinates, [`start`] of lost starts, [`misplaced`] and [`decimal`] of changed characters, [`relative`] of relative
+//! coordinates. [`own`] takes the numbers of codes out of their blocks, and [`owner`] assigns slits to pieces in files
+//! without piece numbers.
 
 mod alone;
 mod arc;
@@ -24,9 +26,13 @@ mod lost;
 mod lower;
 mod meaning;
 mod misplaced;
+mod own;
 mod owner;
+mod passed;
+mod relative;
 mod run;
 mod start;
+mod strokes;
 mod syntax;
 mod tally;
 mod title;

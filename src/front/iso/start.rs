@@ -43,6 +43,11 @@ impl Start {
         *self = Self::default();
     }
 
+    /// True if the knife has moved since its last lift.
+    pub(super) fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
     /// Records a place in the air.
     pub(super) fn go(&mut self) {
         (self.has_moved, self.begun) = (true, None);

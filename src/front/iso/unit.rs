@@ -10,9 +10,8 @@ use crate::machine::FileUnit;
 use crate::source::Span;
 use crate::units::MM_PER_INCH;
 
-/// Default unit (1/100 inch), mm. Its use is not a finding: the standard defines it, and most files of older cutters state no
-/// unit. With a wrong unit the drawing fits neither its title nor a table; [`check_plausible`] reports that and the unit that
-/// would fit.
+/// Default unit (1/100 inch), mm, which the standard defines. With a wrong unit the drawing may fit neither its title nor a
+/// table; [`check_plausible`] reports that and the unit that would fit, or else that the unit is assumed.
 const DEFAULT_MM: f64 = MM_PER_INCH / 100.0;
 
 /// Maximum distance of a point from the origin along an axis, mm: a kilometre, far beyond any table.
@@ -36,6 +35,13 @@ const FAR: f64 = 0.5;
 const CANDIDATES: [(FileUnit, &str); 3] =
     [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
 
+/// The codes of the units.
+const CODES: [(FileUnit, &str); 3] =
+    [(FileUnit::TenthMm, "G71"), (FileUnit::HundredthInch, "G91"), (FileUnit::ThousandthInch, "G70")];
+
+/// Hint on the other meaning of G91.
+const RELATIVE: &str = "G91 is a unit in cut files; in other machines it asks for relative places, not read here";
+
 /// Input of the plausibility check.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sized<'a> {
@@ -55,11 +61,21 @@ pub(super) struct Unit {
     by_profile: bool,
     /// True after a coordinate was converted; the unit may then not change.
     in_use: bool,
+    /// The unit that the file states.
+    stated: Option<FileUnit>,
+    /// True if the file has G91, the code of relative coordinates in most controllers.
+    has_g91: bool,
 }
 
 impl Unit {
     pub(super) fn new(profile: FileUnit) -> Self {
-        Self { mm: profile.mm().unwrap_or(DEFAULT_MM), by_profile: profile.mm().is_some(), in_use: false }
+        Self {
+            mm: profile.mm().unwrap_or(DEFAULT_MM),
+            by_profile: profile.mm().is_some(),
+            in_use: false,
+            stated: None,
+            has_g91: false,
+        }
     }
 
     /// Length of the unit, mm; marks the unit as used.
@@ -78,20 +94,48 @@ impl Unit {
         FileUnit::TenthMm.mm() != Some(self.mm)
     }
 
+    /// The warning that neither the file nor the profile states the unit.
+    fn assumed(&self) -> Option<Diagnostic> {
+        if self.by_profile || self.stated.is_some() {
+            return None;
+        }
+        let message = format!("no G70, G71 or G91 states the unit: {} mm (1/100 inch) is assumed", self.mm);
+        let finding = Diagnostic::new(&code::ISO_NO_UNIT, message);
+        Some(finding.hint("compare the size of a part, and set `units` in the profile: mm/10, in/100 or in/1000"))
+    }
+
     /// Sets the unit stated in the file.
     pub(super) fn set(&mut self, unit: FileUnit, span: Span, out: &mut Diagnostics) {
+        self.has_g91 |= unit == FileUnit::HundredthInch;
         let Some(mm) = unit.mm().filter(|_| !self.by_profile) else { return };
-        if self.in_use && mm.to_bits() != self.mm.to_bits() {
-            let message = format!("the unit changes from {} mm to {mm} mm after coordinates", self.mm);
-            out.push(
-                Diagnostic::new(&code::ISO_UNITS_CHANGED, message)
-                    .at(span)
-                    .hint("two jobs may stand in one file: split it; or set `units` in the profile"),
-            );
-        } else {
+        let before = self.stated.replace(unit);
+        if mm.to_bits() == self.mm.to_bits() || !self.in_use && before.is_none() {
             self.mm = mm;
+            return;
         }
+        let (old, new) = (before.map_or("no code", code_of), code_of(unit));
+        let message = if self.in_use {
+            format!("the unit changes from {} mm to {mm} mm ({new}) after coordinates", self.mm)
+        } else {
+            format!("{old} and {new} contradict each other: a unit of {} mm or of {mm} mm", self.mm)
+        };
+        let finding = Diagnostic::new(&code::ISO_UNITS_CHANGED, message).at(span);
+        // A choice of the unit would cut a tangle where G91 asks for relative coordinates.
+        let is_relative = unit == FileUnit::HundredthInch || self.has_g91 && !self.in_use;
+        out.push(match (is_relative, self.in_use) {
+            (true, true) => finding.hint(RELATIVE).hint("two jobs may stand in one file: then split it"),
+            (true, false) => finding.hint(RELATIVE),
+            (false, true) => finding.hint("two jobs may stand in one file: split it; or set `units` in the profile"),
+            (false, false) => {
+                finding.hint("compare a part: `--set units=mm/10`, in/100 or in/1000 says which is right")
+            }
+        });
     }
+}
+
+/// The code of a unit.
+fn code_of(unit: FileUnit) -> &'static str {
+    CODES.iter().find(|(of, _)| *of == unit).map_or("units", |(_, code)| code)
 }
 
 /// A point of the drawing, and its block.
@@ -162,10 +206,18 @@ fn of_decimals(unit: &Unit, extent: &Extent) -> Diagnostic {
     let per_inch = (MM_PER_INCH / unit.mm).round();
     let message =
         format!("coordinates have decimals: in units of {} mm the drawing is {length:.1} x {width:.1} mm", unit.mm);
+    let of_read = (length, width);
     let [length, width] = [length, width].map(|side| side * per_inch);
     let finding = Diagnostic::new(&code::ISO_DECIMALS, message);
     let finding = finding.hint(format!("read as inches it would be {length:.0} x {width:.0} mm"));
-    finding.hint(format!("let the CAD write whole numbers, {per_inch:.0} an inch; or as mm with G71, 10 a mm"))
+    let finding =
+        finding.hint(format!("let the CAD write whole numbers, {per_inch:.0} an inch; or as mm with G71, 10 a mm"));
+    match CANDIDATES.iter().find(|(of, _)| of.mm() == Some(unit.mm)) {
+        Some((_, key)) if of_read.0.max(of_read.1) >= SMALLEST_OF_DECIMALS => {
+            finding.hint(format!("where the size is right as it was read, `--set units={key}` says so"))
+        }
+        _ => finding,
+    }
 }
 
 /// The warning for a file whose numbers are most likely mm with decimals.
@@ -210,7 +262,11 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
         return;
     }
     let (length, width) = extent.size();
-    if unit.is_of_inches() && length.max(width) < SMALLEST_OF_DECIMALS && has_decimals(bytes) {
+    let per_inch = MM_PER_INCH / unit.mm;
+    // As inches it would be a marker, and as written it is narrower than any.
+    let is_marker_in_inches = !unit.by_profile && width * per_inch <= WIDEST && length * per_inch <= LONGEST;
+    let is_small = length.max(width) < SMALLEST_OF_DECIMALS || is_marker_in_inches;
+    if unit.is_of_inches() && is_small && has_decimals(bytes) {
         out.push(of_decimals(unit, extent));
         return;
     }
@@ -230,6 +286,10 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
         return;
     }
     if fits(1.0) {
+        // A title that fits the drawing tells the unit as well as a code.
+        if let Some(finding) = unit.assumed().filter(|_| title.is_none()) {
+            out.push(finding);
+        }
         return;
     }
     let drawn = format!("{length:.0} x {width:.0} mm");

@@ -5,9 +5,9 @@ use crate::front::Word;
 /// The codes of cut files and their effects.
 #[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
-    Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down" },
+    Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down. Down and up without a place between is reported" },
     Word { words: "`N`", about: "a piece begins; with the knife down, at the next lift" },
-    Word { words: "`G70`, `G71`, `G91`", about: "unit 0.0254 mm, 0.1 mm, 0.254 mm (this one, too, where none of them stands)" },
+    Word { words: "`G70`, `G71`, `G91`", about: "unit 0.0254 mm, 0.1 mm, 0.254 mm (this one, too, where none of them stands, which is reported). Two that contradict each other are refused; G91 for relative coordinates is not read" },
     Word { words: "`G01`; `G02`, `G03` with `I J` or `R` and a number", about: "straight lines; arcs, as chords within a quarter of the tolerance and 0.01 mm" },
     Word { words: "`G00`", about: "straight lines; reported, since the knife alone says what is cut" },
     Word { words: "`F`", about: "cap on the speed, inches per minute, from there on" },
@@ -22,11 +22,11 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`R` without a number, `M43`; `M44`; `M45`, `M72`; `M73`", about: "drill 1; 2; 3; 4" },
     Word { words: "`M31`", about: "label, in four layouts; never cut" },
     Word { words: "`M20`", about: "message; its size of the marker is checked" },
-    Word { words: "`G04`, `M70`", about: "origin: no effect before the first coordinates, reported behind them" },
+    Word { words: "`G04`, `M70`", about: "origin: no effect before the first coordinates, reported behind them; G04 is a dwell in most controllers. With X, Y or F in its block it is refused, since they are its own numbers; switched off, it is skipped with X, Y, F and P" },
     Word { words: "`M0`", about: "end; reported when something to cut follows. The list of labels behind it goes to its pieces" },
-    Word { words: "`/ ... /`", about: "what stands between is skipped, but in texts; it is no code and cannot be switched off" },
+    Word { words: "`/ ... /`", about: "what stands between is skipped, but in texts; it is no code and cannot be switched off. A block end or M14 in it is reported: many machines skip one block behind a `/`" },
     Word { words: "`E`, `M68`; `M23`", about: "flick notch; edge clip: reported" },
     Word { words: "`M40`, `M41`, `M42`; `M47`, `M48`, `M51`", about: "sharpening; knife intelligence: reported" },
     Word { words: "`D1`, `D2`, `D4`, `Q`, `H`, `G90`, `M30`", about: "no effect on the cut" },
-    Word { words: "any other", about: "reported as unknown" },
+    Word { words: "any other", about: "reported as unknown; refused where X or Y follow in its block, which may be its own numbers" },
 ];

@@ -24,6 +24,7 @@ mod sides;
 mod slit;
 mod spike;
 mod split;
+mod stray;
 mod stroke;
 mod table;
 mod visit;

@@ -9,6 +9,7 @@
 //!   it is an error: cloth cannot lie in two parts.
 //! - A slit reaches another one of its piece, or an edge on the other side.
 //! - A slit leads out of its part.
+//! - A stroke of the length of a slit begins on no edge.
 //! - A hole lies in no part. Without closed contours there are no parts to check.
 //! - The number of a piece is repeated.
 
@@ -22,6 +23,7 @@ use rayon::prelude::*;
 use super::pass::MarkerPass;
 use super::search::{in_parts, search_ended};
 use super::severed::severing;
+use super::stray::strays;
 use crate::analysis::depth::{Depth, depth, share};
 use crate::analysis::outlines::{Outlines, slack};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -68,10 +70,11 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         .collect();
     let mut boxes = Vec::with_capacity(marker.pieces.len());
     let mut loose: Vec<(usize, Drill)> = Vec::new();
-    let (mut any_closed, mut ended) = (false, None);
+    let (mut stray, mut any_closed, mut ended) = (Vec::new(), false, None);
     for part in alone {
         part.findings.into_iter().for_each(|finding| diagnostics.push(finding));
         loose.extend(part.loose);
+        stray.extend(part.stray);
         any_closed |= part.any_closed;
         ended = earlier(ended, part.ended);
         boxes.extend(part.boxes);
@@ -79,6 +82,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let mut search = Search::new(marker, Boxes::new(boxes), job);
     let mut work = Budget::of_a_marker();
     ended = earlier(ended, search.overlaps(&mut work, diagnostics));
+    stray.into_iter().filter(|_| any_closed).for_each(|finding| diagnostics.push(finding));
     // Without closed contours there are no parts to check.
     if let Some(&(first, _)) = loose.first().filter(|_| any_closed) {
         search.make_room();
@@ -103,6 +107,8 @@ struct Alone {
     findings: Vec<Diagnostic>,
     /// Holes outside of their own piece, with the index of that.
     loose: Vec<(usize, Drill)>,
+    /// Strokes that begin on no edge of their piece.
+    stray: Vec<Diagnostic>,
     any_closed: bool,
     /// Piece at which the budget was spent.
     ended: Option<usize>,
@@ -136,6 +142,7 @@ impl Alone {
                 alone.findings.push(finding.hint(hint));
             }
             alone.findings.extend(slits_outwards(marker, i, &part, &mut work));
+            alone.stray.extend(strays(marker, i, &part, &mut work));
             // A hole is most likely in its own piece.
             let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
             alone.loose.extend(outside.map(|drill| (i, *drill)));

@@ -73,7 +73,8 @@ impl Scan<'_> {
                 "Q" | "Z" => moves = false,
                 "M20" => self.blocks.skip_text(),
                 "M31" => is_label = true,
-                name if !self.profile.obeys(name) => {}
+                // X and Y beside an origin or a dwell that is switched off are its own numbers.
+                name if !self.profile.obeys(name) => moves &= !matches!(name, "G4" | "M70"),
                 "M14" | "B" => self.stroke = self.stroke.take().or_else(|| Some(Drawn::new(self.at))),
                 "M15" | "A" => self.up(),
                 "G0" | "G1" => self.way = STRAIGHT,

@@ -141,7 +141,8 @@ pub(in crate::verify) struct Blocks<'a> {
 impl<'a> Blocks<'a> {
     pub(in crate::verify) fn new(bytes: &'a [u8]) -> Self {
         // A byte order mark and lines of percent signs are skipped.
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let leader = bytes.iter().position(|&byte| byte != 0).unwrap_or(0);
+        let bytes = bytes[leader..].strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let frame = |byte: &u8| is_blank(*byte) || *byte == b'%';
         let start = bytes.iter().position(|byte| !frame(byte)).unwrap_or(bytes.len());
         let end = bytes.iter().rposition(|byte| !frame(byte)).map_or(start, |last| last + 1);
@@ -209,5 +210,5 @@ impl<'a> Blocks<'a> {
 }
 
 fn is_blank(byte: u8) -> bool {
-    matches!(byte, b'\r' | b'\n' | b' ' | b'\t' | 0 | 0x1a)
+    matches!(byte, b'\r' | b'\n' | b' ' | b'\t' | 0 | 0x1a | 0x02 | 0x03 | 0x11 | 0x13)
 }
