@@ -393,6 +393,31 @@ fn open_outlines_on_the_layer_of_the_knife_are_told() {
     assert_eq!(found, ["drawing/layers", "marker/sides", "marker/open-contour"]);
 }
 
+/// A line on the layer of the knife in no part that turns is an outline without one or two of its sides.
+#[test]
+fn a_bent_line_outside_all_parts_on_the_layer_of_the_knife_is_told() {
+    let told = |open: &[[f64; 2]]| {
+        let line = |places: &[[f64; 2]], closed: u8| {
+            let vertices: String =
+                places.iter().map(|[x, y]| format!("0\nVERTEX\n8\nCUT\n10\n{x}\n20\n{y}\n")).collect();
+            format!("0\nPOLYLINE\n8\nCUT\n66\n1\n70\n{closed}\n{vertices}0\nSEQEND\n")
+        };
+        let square = line(&[[0.0, 0.0], [300.0, 0.0], [300.0, 300.0], [0.0, 300.0]], 1);
+        let text = format!(
+            "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}{square}0\nENDSEC\n0\nEOF\n",
+            line(open, 0)
+        );
+        let source = Source::new("a.dxf", text.into_bytes()).expect("small");
+        let mut found = Diagnostics::default();
+        pipeline::read(&source, None, &Job::default(), &mut found).expect("a drawing");
+        codes(&found).contains(&"marker/open-contour")
+    };
+    assert!(told(&[[500.0, 0.0], [800.0, 0.0], [800.0, 300.0]]));
+    assert!(told(&[[500.0, 0.0], [1000.0, 0.0], [1000.0, 300.0]]));
+    assert!(!told(&[[500.0, 0.0], [800.0, 0.0], [1100.0, 10.0]]));
+    assert!(!told(&[[100.0, 0.0], [100.0, 50.0], [150.0, 50.0]]));
+}
+
 /// Dashes along the edges of a polygon with gaps between them and at its corners, mm; longer ones where an edge needs it.
 fn dashes(polygon: &[Point], [dash, gap]: [f64; 2]) -> String {
     let mut lines = String::new();

@@ -7,7 +7,7 @@ use crate::diagnostic::telling::Harm::{Spares, Spoils};
 codes! {
     // The marker, whatever the dialect.
     /// A contour that does not close.
-    MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
+    MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well. In drawings with layers, open lines in a part are slashes, and only those outside all parts are told.");
     /// A point far off.
     MARKER_FAR_POINT = warning(Spoils, Shape, "marker/far-point", "A point of a contour stands 300 mm or more off, between two that lie near each other: a digit of it may be doubled or lost.", "A contour leads out to the point and straight back: no part looks so, unless a slash is drawn as a spike. The knife cuts there and back, through what lies on the way. Look at it in the picture (-t svg), and transfer or export the file again.");
     /// Nothing that a knife can cut.

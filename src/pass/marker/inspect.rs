@@ -44,6 +44,8 @@ const GAP_SHARE: f64 = 0.05;
 const AROUND: [[f64; 2]; 2] = [[0.25, 0.02], [0.45, 0.05]];
 /// Gap of a contour, as a share of its length, from which on it is a straight line, which nobody means to close.
 const STRAIGHT_SHARE: f64 = 0.999;
+/// Gap of a contour outside all parts of a drawing without a grid, as a share of its length, from which on it is a bent line.
+const BENT_SHARE: f64 = 0.9;
 /// Gap below which the ends of a contour of any length are near, mm.
 const NEAR_ENDS: f64 = 5.0;
 /// Least distance of a far point from both of its neighbours, mm: a part of a garment has no spike so long.
@@ -238,6 +240,8 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     let length = || marker.list.walk(contour.range).map(|(_, segment)| segment.length()).sum::<f64>();
     let number = marker.pieces[piece].number;
     let points = marker.list.points(contour.range);
+    // Slashes and darts of a part are open on purpose.
+    let is_alone = || marker.pieces[piece].contours.iter().all(|contour| !contour.closed);
     if gap > NEAR_ENDS
         && let Some(Passing { off, past }) = comes_by(&points)
     {
@@ -246,6 +250,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
     } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
+        || gap > NEAR_ENDS && is_alone() && gap < BENT_SHARE * length()
         || gap < GAP_SHARE * length()
         || AROUND.iter().any(|[share, area]| gap < share * length() && goes_around(&points, area * length().powi(2)))
     {
