@@ -1,8 +1,9 @@
 //! Borders around one part: rectangles that are drawn like the outline of a part with a cut-out or a seam line.
 //!
 //! The line in a border is a part if something on it or in it is for a part: a seam line, a notch from its edge inwards, or a
-//! long open line such as a grain line. A cut-out is waste, and has none of these. Without such a sign the rectangle is a part,
-//! with a warning.
+//! long open line such as a grain line. A cut-out is waste, and has none of these. Lines in a corner of a plot's rectangle that is
+//! empty elsewhere may be parts as well: parts are laid from a corner of the cloth, and a cut-out so near to two edges would leave
+//! a strip. Without such a sign the rectangle is a part, with a warning.
 
 use super::doubts::SHORTEST_NAMED;
 use super::frame;
@@ -10,7 +11,7 @@ use super::line::{Class, Line, SHORTEST_NOTCH};
 use super::pens::Use;
 use super::sheet::Sheet;
 use crate::geom::budget::Budget;
-use crate::geom::{Point, polyline, ring};
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::marker::Notch;
 use crate::machine::Job;
 use crate::machine::plot::Frame;
@@ -21,6 +22,10 @@ pub(super) const LEAST_SINGLE_FILL: f64 = 0.15;
 const WIDEST_SEAM: f64 = 15.0;
 /// Farthest that two even margins differ, mm.
 const EVEN: f64 = 1.0;
+/// Greatest distance of laid parts from the two nearest sides of the cloth, mm.
+const CORNER: f64 = 30.0;
+/// Least ratio of the empty margin of a frame to the margin on the opposite side.
+const EMPTIER: f64 = 2.0;
 /// Least number of margins out of four that are wide or of a width of their own if the outline may be a frame.
 const ODD_MARGINS: usize = 3;
 
@@ -105,7 +110,38 @@ pub(super) fn border(sheet: &Sheet, job: &Job) -> Option<usize> {
         (may_be && is_of_a_part(sheet, i)).then_some(part)
     };
     let by_area = |a: &usize, b: &usize| sheet.lines[*a].area.total_cmp(&sheet.lines[*b].area).then(b.cmp(a));
-    (0..sheet.lines.len()).filter_map(around).max_by(by_area)
+    let marked = (0..sheet.lines.len()).filter_map(around).max_by(by_area);
+    marked.or_else(|| largest_part(sheet).filter(|&part| holds_a_lay(sheet, part)))
+}
+
+/// The part with the largest area.
+fn largest_part(sheet: &Sheet) -> Option<usize> {
+    let parts = (0..sheet.lines.len()).filter(|&i| sheet.lines[i].class == Class::Part);
+    parts.max_by(|&a, &b| sheet.lines[a].area.total_cmp(&sheet.lines[b].area).then(b.cmp(&a)))
+}
+
+/// True if the closed lines in a rectangle of a plot without notches lie in a corner of it, and it is empty elsewhere.
+fn holds_a_lay(sheet: &Sheet, part: usize) -> bool {
+    let outer = &sheet.lines[part];
+    let is_plot = !sheet.pens.iter().any(|pen| pen.is_layer);
+    if !is_plot || !outer.is_rectangle(sheet.band()) || is_marked(sheet, part) {
+        return false;
+    }
+    let mut held = Extent::EMPTY;
+    let is_held = |i: &usize| sheet.lines[*i].class == Class::Inner && sheet.nest.outermost(*i) == Some(part);
+    let is_left = |line: &&Line| !line.is_cut && line.usage != Use::Drawn;
+    let inner = (0..sheet.lines.len()).filter(is_held).map(|i| &sheet.lines[i]).filter(is_left);
+    let largest = inner.fold(0.0, |largest: f64, line| {
+        held.join(&line.extent);
+        largest.max(line.size())
+    });
+    if largest < SHORTEST_NAMED {
+        return false;
+    }
+    let (low, high) = (held.min - outer.extent.min, outer.extent.max - held.max);
+    let margins = [[low.x, high.x], [low.y, high.y]].map(|[a, b]| (a.min(b), a.max(b)));
+    margins.iter().all(|&(near, _)| near <= CORNER)
+        && margins.iter().any(|&(near, far)| far > EMPTIER * near.max(0.0) + EVEN)
 }
 
 /// True if a line in a rectangle has a sign of a part.

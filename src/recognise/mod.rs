@@ -14,7 +14,7 @@
 //!   among them, `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens`
 //!   the meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
 //! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `torn` outlines whose numbers have lost a byte.
-//!   `say` reports doubts about the drawing, `doubts` those about pieces.
+//!   `say` reports doubts about the drawing, `doubts` those about pieces, `size` sizes beyond any table.
 
 mod again;
 mod border;
@@ -42,6 +42,7 @@ mod seam;
 mod shared;
 mod sheet;
 mod signs;
+mod size;
 mod slits;
 mod strokes;
 mod succession;

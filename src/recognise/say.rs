@@ -13,7 +13,7 @@ use super::parts::Parts;
 use super::pens::Use;
 use super::piece::owners;
 use super::sheet::{self, Sheet};
-use super::{signs, torn};
+use super::{signs, size, torn};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
@@ -60,8 +60,9 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
         return;
     }
-    if let Some(finding) = frame_or_part(sheet, job) {
-        out.push(finding);
+    match frame_or_part(sheet, job) {
+        Some(finding) => out.push(finding),
+        None => size::say(sheet, out),
     }
     doubts::all(sheet, job, out);
     seams_of_knives(sheet, out);

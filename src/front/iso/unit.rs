@@ -6,7 +6,7 @@ use super::vertex::Vertices;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
-use crate::machine::FileUnit;
+use crate::machine::{FileUnit, LONGEST_LAY_MM};
 use crate::source::Span;
 use crate::units::MM_PER_INCH;
 
@@ -17,10 +17,8 @@ const DEFAULT_MM: f64 = MM_PER_INCH / 100.0;
 /// Maximum distance of a point from the origin along an axis, mm: a kilometre, far beyond any table.
 pub(super) const FARTHEST: f64 = 1e6;
 
-/// Maximum width of a marker on a table, maximum length of a lay, and minimum size of a part, mm. Tables are up to some 3 m
-/// wide, and cloth is spread over a few dozen metres.
+/// Maximum width of a marker on a table, mm, which is up to some 3 m wide, and minimum size of a part, mm.
 const WIDEST: f64 = 3500.0;
-const LONGEST: f64 = 100_000.0;
 const SMALLEST: f64 = 5.0;
 /// Side below which a drawing in inch units with decimals is doubted, mm. Ten metres written in inches and read as thousandths
 /// have that size.
@@ -236,7 +234,7 @@ fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
     let (length, width) = extent.size();
     let drawn = format!("{length:.0} x {width:.0} mm");
     match title {
-        Some(title) if width <= WIDEST && length <= LONGEST && length.max(width) >= SMALLEST => {
+        Some(title) if width <= WIDEST && length <= LONGEST_LAY_MM && length.max(width) >= SMALLEST => {
             let stated = |size: Option<f64>| size.map_or("any".to_owned(), |size| format!("{size:.0}"));
             let (l, w) = (stated(title.length), stated(title.width));
             let message =
@@ -246,7 +244,7 @@ fn doubt(Sized { unit, extent, title, .. }: Sized) -> Diagnostic {
         _ => {
             let what = match () {
                 () if width > WIDEST => "wider than any table",
-                () if length > LONGEST => "longer than any table",
+                () if length > LONGEST_LAY_MM => "longer than any table",
                 () => "smaller than any part",
             };
             let message = format!("with a unit of {} mm the drawing is {drawn}: {what}", unit.mm);
@@ -276,7 +274,7 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
         };
         title.is_none_or(|title| filled(length, title.length) && filled(width, title.width))
             && width * scale <= WIDEST
-            && length * scale <= LONGEST
+            && length * scale <= LONGEST_LAY_MM
             && length.max(width) * scale >= SMALLEST
     };
     let fits = |scale: f64| fits_as((length, width), scale);

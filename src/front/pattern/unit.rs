@@ -4,6 +4,7 @@ use super::choice::Asked;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::dxf::syntax;
 use crate::front::dxf::unit::{NO_UNIT, UNITS};
+use crate::machine::LONGEST_PART_MM;
 use crate::source::Span;
 use crate::units::MM_PER_INCH;
 
@@ -25,8 +26,6 @@ const LONGEST_LINE: f64 = 3e4;
 /// Largest side of the largest of several pieces, mm, below which the unit is doubted: no garment is so small, and trousers of
 /// 1.2 m that are drawn in cm would be.
 const SMALLEST: f64 = 120.0;
-/// Largest side of a piece, mm, beyond which the unit is doubted: garments, covers and sails in one piece are smaller.
-const LARGEST: f64 = 10_000.0;
 /// Greatest width of cloth, mm, that of wide decoration fabric: no piece is wider both ways.
 const WIDEST_CLOTH: f64 = 3300.0;
 
@@ -108,7 +107,7 @@ fn of_number(
     1.0
 }
 
-/// Doubts the unit by the sizes of pieces, mm: the largest is longer than [`LARGEST`], one is wider than [`WIDEST_CLOTH`] both
+/// Doubts the unit by the sizes of pieces, mm: the largest is longer than [`LONGEST_PART_MM`], one is wider than [`WIDEST_CLOTH`] both
 /// ways, or the largest of several is below [`SMALLEST`]; a single small one may be a label.
 pub(super) fn doubt(
     sizes: impl Iterator<Item = (f64, f64)>,
@@ -121,10 +120,10 @@ pub(super) fn doubt(
         (largest, widest) = (largest.max(width.max(height)), widest.max(width.min(height)));
     }
     let is_small = !is_one && (0.0..SMALLEST).contains(&largest);
-    if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LARGEST && widest <= WIDEST_CLOTH {
+    if job.profile.dxf.unit.mm().is_some() || !is_small && largest <= LONGEST_PART_MM && widest <= WIDEST_CLOTH {
         return;
     }
-    let message = if !is_small && largest <= LARGEST {
+    let message = if !is_small && largest <= LONGEST_PART_MM {
         format!("a piece is {widest:.0} mm wide and longer, wider than cloth; is the unit right?")
     } else {
         format!("the largest piece is {largest:.0} mm long; is the unit right?")

@@ -172,6 +172,41 @@ fn a_rectangle_around_one_line_with_its_seam_line_is_refused_until_it_is_said_wh
     assert_ne!(told(&far, &Job::default()), ["drawing/frame-or-part"]);
 }
 
+/// Parts are laid from a corner of the cloth, and a cut-out lies in the middle of its part as a rule.
+#[test]
+fn a_rectangle_that_is_empty_but_for_its_corner_is_refused_until_it_is_said_what_it_is() {
+    let part = [800, 800, 12_000, 8000];
+    let others = [[14_000, 800, 12_000, 8000], [800, 12_000, 12_000, 8000]];
+    for sheet in [[0, 0, 16_000, 12_000], [0, 0, 24_000, 24_000], [0, 0, 60_000, 60_000]] {
+        assert_eq!(cut(&[sheet, part], &Job::default()).1[0], "drawing/frame-or-part", "{sheet:?}");
+    }
+    let sheet = [0, 0, 80_000, 60_000];
+    for lines in [&[sheet, part, others[0]][..], &[sheet, part, others[0], others[1]]] {
+        assert_eq!(cut(lines, &Job::default()).1[0], "drawing/frame-or-part", "{lines:?}");
+    }
+    let job = Job { lines: Lines { inner: Some(Inner::Ignore), ..Lines::default() }, ..Job::default() };
+    assert_eq!(cut(&[sheet, part], &job).0, [[0, 0]]);
+    let mut job = Job::default();
+    job.profile.hpgl.frame = Frame::Outermost;
+    assert_eq!(cut(&[sheet, part], &job), (vec![[800, 800]], vec!["drawing/frame"]));
+    // Cut-outs in the middle, near one edge, all along the part, or as small as an eyelet.
+    for inner in [[24_000, 20_000, 12_000, 8000], [24_000, 800, 12_000, 8000], [800, 800, 78_400, 58_400]] {
+        assert!(!cut(&[sheet, inner], &Job::default()).1.contains(&"drawing/frame-or-part"), "{inner:?}");
+    }
+    check(&[sheet, [800, 800, 1600, 1600]], &[sheet], &["drawing/inner-lines"]);
+}
+
+/// A part longer than any table has lost a decimal point, or a digit of it is doubled.
+#[test]
+fn a_part_of_hundreds_of_metres_is_doubted() {
+    for part in [[800, 800, 12_000, 8_799_200], [800, 800, 880_000, 8000]] {
+        check(&[part], &[part], &["drawing/size"]);
+    }
+    let row: Vec<[i64; 4]> = (0..3).map(|k| [k * 2_000_000, 0, 12_000, 8000]).collect();
+    check(&row, &row, &["drawing/size"]);
+    check(&[[0, 0, 12_000, 390_000]], &[[0, 0, 12_000, 390_000]], &[]);
+}
+
 /// A cut-out is waste: nothing is marked on it, and its notches lead into the cloth around it.
 #[test]
 fn a_rectangle_around_one_line_with_the_marks_of_a_part_is_refused_until_it_is_said_what_it_is() {
