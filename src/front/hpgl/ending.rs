@@ -44,7 +44,8 @@ pub(super) fn of_plot(last: &Last, reader: &Reader<'_>, plotter: &Plotter) -> Op
     let is_closing =
         matches!(instruction, Instruction::Page(_) | Instruction::Pen | Instruction::Initialize | Instruction::Begin);
     let name = if moves { reader.mnemonic_at(span) } else { String::new() };
-    let message = if moves && !last.drew && reader.lacks_semicolon(span) {
+    let is_open = last.drew && !plotter.drawing.is_closed(); // reported as an outline that is cut short
+    let message = if moves && !is_open && reader.lacks_semicolon(span) {
         format!("the file ends amid {name}, without a semicolon")
     } else if instruction == Instruction::Down && plotter.drawing.is_lifted() {
         format!("the file ends where {name} lowers the pen, and nothing is drawn")
@@ -70,7 +71,17 @@ pub(super) struct AirMoves {
     /// The places of the current row.
     places: Vec<[f64; 2]>,
     rows: Count,
+    /// True if the last place of the row is a start of something: passed with the pen up, and not where pens are parked.
+    awaits: bool,
+    /// Move of the current row away from such a place.
+    left: Option<Span>,
+    /// Such moves before something was drawn, and the number of all rows.
+    lefts: Count,
+    settled: usize,
 }
+
+/// Least number of rows for each start that the pen leaves without drawing, if there are several: else a program writes them.
+const FEW_LEFT: usize = 10;
 
 /// Least number of places of an outline: one instruction with as many, or a way back over as many, looks like one.
 const LEAST_PLACES: usize = 3;
@@ -87,24 +98,50 @@ impl AirMoves {
         if moves >= LEAST_PLACES || is_back() {
             self.rows.add(span);
             self.places.clear();
+        } else if self.awaits && !to.contains(&0.0) {
+            self.left.get_or_insert(span);
         }
+        self.awaits = !to.contains(&0.0);
         self.places.push(to);
+    }
+
+    /// The pen is changed: programs lead it aside before.
+    pub(super) fn pause(&mut self) {
+        self.awaits = false;
+    }
+
+    /// The plotter is switched on afresh: the pen was parked before.
+    pub(super) fn restart(&mut self) {
+        self.left = None;
+        self.settle();
     }
 
     /// Ends a row: something is drawn or written at its last place.
     pub(super) fn settle(&mut self) {
+        self.settled += usize::from(self.awaits);
+        self.awaits = false;
+        if let Some(span) = self.left.take() {
+            self.lefts.add(span);
+        }
         self.places.clear();
     }
 
     /// Ends a row, and begins another one at its last place: an outline that begins there ends there, too.
     pub(super) fn settle_at(&mut self, at: [f64; 2]) {
-        self.places.clear();
+        self.settle();
         self.places.push(at);
     }
 
     /// The finding on the rows.
     pub(super) fn finding(&self) -> Option<Diagnostic> {
-        self.rows.first?;
+        if self.rows.first.is_none() {
+            let is_few = self.lefts.count == 1 || self.settled >= FEW_LEFT * self.lefts.count;
+            self.lefts.first.filter(|_| is_few)?;
+            let times = self.lefts.times();
+            let message = format!("the pen comes to a place and leaves it without drawing; this happens {times}");
+            let finding = self.lefts.diagnostic(&code::HPGL_UNCUT_PLACES, message);
+            return Some(finding.hint("a PD may be lost: then a piece is missing; look at the picture (-t svg)"));
+        }
         let message = format!("places in a row are passed with the pen up; this happens {}", self.rows.times());
         let finding = self.rows.diagnostic(&code::HPGL_UNCUT_PLACES, message);
         Some(

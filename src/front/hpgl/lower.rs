@@ -18,6 +18,7 @@ use crate::geom::{Heading, Vector};
 use crate::ir::Drawing;
 use crate::ir::marker::Label;
 use crate::source::{Source, Span};
+use crate::units::number::fixed;
 
 /// Measures of a plot.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +40,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         buffer: None,
         pages: Pages::default(),
         unsized_at: None,
+        scaled: None,
         doubts: Vec::new(),
         last_drew: false,
         last: None,
@@ -66,6 +68,8 @@ struct Lowering<'a> {
     pages: Pages,
     /// Place that left the scale to the device, as long as nothing was drawn in it: the corners may follow.
     unsized_at: Option<Span>,
+    /// Number of vertices at the last change of the scale, and its place.
+    scaled: Option<(usize, Span)>,
     /// Doubts about scales that were reported, each once.
     doubts: Vec<Unknown>,
     /// True if the last statement has drawn something.
@@ -78,6 +82,9 @@ struct Lowering<'a> {
 
 /// Fraction bits of PE, of either sign; more are damage. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.)
 const FRACTION_BITS: std::ops::RangeInclusive<i64> = -26..=26;
+
+/// Decimals of the factors of a scale in messages.
+const DECIMALS_OF_FACTORS: u32 = 3;
 
 impl Lowering<'_> {
     fn run(&mut self) {
@@ -94,6 +101,8 @@ impl Lowering<'_> {
                     self.tally.surplus.see(mnemonic, span, amid, &self.reader);
                     if serves_place(mnemonic) {
                         self.tally.air.settle_at(self.plotter.at());
+                    } else if instruction == Instruction::Pen {
+                        self.tally.air.pause();
                     }
                 } else if instruction == Instruction::Down {
                     self.tally.air.settle();
@@ -135,6 +144,7 @@ impl Lowering<'_> {
 
     /// End of the file: a line that the pen is still drawing there may be cut short.
     fn end(&mut self) {
+        self.see_scale();
         if let Some(last) = self.plotter.unfinished() {
             let message = "a polygon (PM) has no end, and is not drawn";
             let finding = Diagnostic::new(&code::HPGL_ENDS_IN_POLYGON, message).at(last);
@@ -160,9 +170,10 @@ impl Lowering<'_> {
     }
 
     fn reset(&mut self, span: Span) {
+        self.see_scale();
         self.pages.end(End::Afresh, self.plotter.drawing.strokes.len(), span);
         self.plotter.reset();
-        self.tally.air.settle();
+        self.tally.air.restart();
         (self.heading, self.unsized_at, self.buffer) = (None, None, None);
     }
 
@@ -180,7 +191,7 @@ impl Lowering<'_> {
             }
             Instruction::Absolute | Instruction::Relative => {
                 self.plotter.set_relative(instruction == Instruction::Relative);
-                self.moves_as_it_is(span);
+                self.moves_as_it_is(instruction, span);
             }
             Instruction::Pen => self.pen(),
             Instruction::Encoded => self.encoded(),
@@ -253,7 +264,7 @@ impl Lowering<'_> {
     }
 
     /// The places after PA and PR, which do not tell whether the pen is down.
-    fn moves_as_it_is(&mut self, span: Span) {
+    fn moves_as_it_is(&mut self, instruction: Instruction, span: Span) {
         let first = self.reader.at();
         if self.plotter.is_drawing() || self.plotter.is_gathering() {
             self.moves();
@@ -262,6 +273,7 @@ impl Lowering<'_> {
         }
         if self.reader.at() > first {
             self.plotter.trust_pen();
+            self.tally.modes[usize::from(instruction == Instruction::Relative)].add(span);
         }
     }
 
@@ -379,12 +391,17 @@ impl Lowering<'_> {
             self.tally.comma(span);
         }
         self.tally.list_from = self.reader.at() as u32;
-        while let Some((pair, span)) = self.reader.plain_pair().or_else(|| self.pair()) {
-            let to = self.plotter.target(pair);
-            let outcome = self.plotter.lead(to, span);
-            self.check(outcome, span);
-            self.plotter.settle_by_mode();
-            places += 1;
+        loop {
+            while let Some((pair, span)) = self.reader.plain_pair().or_else(|| self.pair()) {
+                let to = self.plotter.target(pair);
+                let outcome = self.plotter.lead(to, span);
+                self.check(outcome, span);
+                self.plotter.settle_by_mode();
+                places += 1;
+            }
+            if !self.reader.pass_query() {
+                break;
+            }
         }
         if self.plotter.is_drawing() {
             self.tally.places += places;
@@ -413,12 +430,31 @@ impl Lowering<'_> {
 
     /// SC, IP, IR, RO.
     fn frame(&mut self, set: fn(&mut Frame, &[f64]) -> Result<(), Unknown>, span: Span) {
+        self.see_scale();
         let values = self.values::<7>();
+        self.scaled = Some((self.plotter.drawing.vertices.len(), span));
         if let Err(doubt) = self.plotter.reframe(|frame| set(frame, &values)) {
             self.doubt(doubt, span);
         }
         let first = self.unsized_at.unwrap_or(span);
         self.unsized_at = self.plotter.frame.is_left_to_device().then_some(first);
+    }
+
+    /// Warns once of a scale in force that stretches what is drawn in it.
+    fn see_scale(&mut self) {
+        let Some((drawn, span)) = self.scaled.filter(|_| !self.doubts.contains(&Unknown::Uneven)) else { return };
+        if let Some([x, y]) = self.plotter.frame.uneven()
+            && self.plotter.drawing.vertices.len() > drawn
+        {
+            self.doubts.push(Unknown::Uneven);
+            let [by_x, by_y] = [x, y].map(|factor| fixed(factor, DECIMALS_OF_FACTORS));
+            let percent = fixed((x.max(y) / x.min(y) - 1.0) * 100.0, 1);
+            let message = format!("a number is {by_x} units in X and {by_y} in Y (IP, SC): stretched by {percent} %");
+            let finding = Diagnostic::new(&code::HPGL_UNEVEN_SCALE, message).at(span);
+            self.out.push(
+                finding.hint("a digit of IP or SC may be wrong: compare a length in X and one in Y with the marker"),
+            );
+        }
     }
 
     /// Warns of a scale, once for each kind of doubt.
@@ -433,6 +469,7 @@ impl Lowering<'_> {
             Unknown::Range => "SC scales from or to a range without width and is ignored",
             Unknown::Incomplete => "numbers are missing here: SC needs four of them, IP and IR two or four",
             Unknown::Angle => "RO turns by quarters only; another angle is ignored",
+            Unknown::Uneven => return, // reported with its factors
         };
         let finding = Diagnostic::new(&code::HPGL_SCALE, message).at(span);
         self.out.push(

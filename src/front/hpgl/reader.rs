@@ -258,6 +258,17 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// Passes over a sequence for the interface (`ESC.B`) amid a list of places: the plotter takes it out of its input.
+    pub(super) fn pass_query(&mut self) -> bool {
+        let behind = self.bytes[self.at..].starts_with(b"\x1b.").then(|| escape(&self.bytes[self.at..]).ok());
+        let Some((rest, _)) = behind.flatten() else { return false };
+        let goes_on = matches!(rest, [b',', next, ..] | [next, ..] if next.is_ascii_digit() || b"+-".contains(next));
+        if goes_on {
+            self.at = self.bytes.len() - rest.len();
+        }
+        goes_on
+    }
+
     /// The bytes of a span.
     pub(super) fn slice(&self, span: Span) -> &'a [u8] {
         &self.bytes[span.start as usize..span.end as usize]

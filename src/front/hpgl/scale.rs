@@ -51,12 +51,16 @@ pub(super) enum Unknown {
     Incomplete,
     /// RO by an angle other than quarter turns.
     Angle,
+    /// Different scales of X and Y.
+    Uneven,
 }
 
 /// Percent.
 const HUNDRED: f64 = 100.0;
 /// Corners of a plotter for A4 paper, in units of 1/40 mm, used if the file gives none (HP 7475A).
 const USUAL_CORNERS: [Pair; 2] = [[250.0, 596.0], [10_250.0, 7796.0]];
+/// Greatest difference of the scales of the two axes, as a share of the lesser: a calibration makes less.
+const MOST_UNEVEN: f64 = 0.01;
 /// Kinds of SC: equal scales on both axes, and factors instead of ranges.
 const ISOTROPIC: f64 = 1.0;
 const FACTORS: f64 = 2.0;
@@ -174,6 +178,13 @@ impl Frame {
     /// factors only the position depends on the corners.
     pub(super) fn is_left_to_device(&self) -> bool {
         !self.are_corners_given && self.ranges.is_some_and(|ranges| ranges.kind != FACTORS)
+    }
+
+    /// Factors of the axes if they differ more than a calibration makes them: an unequal pair stretches the parts.
+    pub(super) fn uneven(&self) -> Option<Pair> {
+        let Scale { factor: [x, y], .. } = self.scale.filter(|_| !self.is_left_to_device())?;
+        let [x, y] = [x.abs(), y.abs()];
+        ((x - y).abs() > MOST_UNEVEN * x.min(y)).then_some([x, y])
     }
 
     /// Distortion of circles by the scale.

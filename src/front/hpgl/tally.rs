@@ -23,6 +23,9 @@ const FEW_LISTS: usize = 3;
 /// Least number of instructions for each comma before their numbers.
 const FEW_COMMAS: usize = 10;
 
+/// Least number of lists of places behind PA for each behind PR, or the other way round.
+const FEW_MODES: usize = 10;
+
 /// Counts of ignored and faulty statements.
 #[derive(Debug, Default)]
 pub(super) struct Tally {
@@ -61,6 +64,8 @@ pub(super) struct Tally {
     /// Lists of places with a comma or a blank behind the last number.
     pub(super) ends: Count,
     pub(super) surplus: Surplus,
+    /// Lists of places behind PA, and behind PR.
+    pub(super) modes: [Count; 2],
     decimals: Decimals,
     /// Number of places that the pen draws to, by their numbers in the file.
     pub(super) places: usize,
@@ -181,6 +186,7 @@ impl Tally {
         found.extend(self.surplus.findings());
         let whole = self.places.saturating_sub(self.decimals.count());
         found.extend(self.lone_separator());
+        found.extend(self.lone_mode());
         found.extend(self.decimals.finding(&code::HPGL_LOST, &code::HPGL_LONE_POINT, |least| whole >= least));
         found.extend(self.air.finding());
         self.say_of_statements(&mut found);
@@ -251,6 +257,20 @@ impl Tally {
         let message = format!("a blank, a comma or a plus sign is beside a number; this happens {}", lone.times());
         let finding = lone.diagnostic(&code::HPGL_LONE_SEPARATOR, message);
         Some(finding.hint("if a digit has become one, a cut leads elsewhere: see it in the picture (-t svg)"))
+    }
+
+    /// The finding on a PR among many PA, or the other way round.
+    fn lone_mode(&self) -> Option<Diagnostic> {
+        let [absolute, relative] = self.modes;
+        let is_lone = |one: Count, other: Count| one.count > 0 && other.count >= FEW_MODES * one.count;
+        let (lone, name, others, other_name) = match () {
+            () if is_lone(relative, absolute) => (relative, "PR", absolute.count, "PA"),
+            () if is_lone(absolute, relative) => (absolute, "PA", relative.count, "PR"),
+            () => return None,
+        };
+        let message = format!("{name} stands before places {}, and {other_name} {others} times", lone.times());
+        let finding = lone.diagnostic(&code::HPGL_LONE_MODE, message);
+        Some(finding.hint("if a letter has changed, all lines behind it lie elsewhere: see the picture (-t svg)"))
     }
 
     /// Findings on statements: junk, damaged, unknown and ignored ones.

@@ -314,6 +314,77 @@ fn places_that_are_passed_in_the_air_are_told_where_an_outline_may_be_lost() {
     }
 }
 
+/// Two moves in a row lead past a part whose PD is lost; programs park the pen on an axis, at a change of pen and at the end.
+#[test]
+fn a_start_that_the_pen_leaves_without_drawing_is_told_where_it_is_rare() {
+    let (part, next) = (rectangle(0, 0, 8000, 8000), "PD24000,800,24000,8800,16000,8800,16000,800;");
+    let is_told = |moves: &str| {
+        let plot = source(format!("IN;SP1;{part}{moves}PU;SP0;"));
+        read(&plot, &Job::default()).1.contains(&"hpgl/uncut-places")
+    };
+    for moves in ["PU800,9800;PU16000,800;", "PU800,9800;PU;PA16000,800;", "PU800,9800,16000,9800;PU16000,800;"] {
+        assert!(is_told(&format!("{moves}{next}")), "{moves}");
+    }
+    for moves in ["PU16000,800;PU16000,800;", "PU0,800;PU16000,800;", "PU800,9800;SP2;PU16000,800;"] {
+        assert!(!is_told(&format!("{moves}{next}")), "{moves}");
+    }
+    assert!(!is_told("PU800,9800;PU16000,800;"));
+    // A program that does so always means nothing by it.
+    let each: String =
+        (0..3).map(|k| format!("PU800,9800;{}", rectangle(16_000 + 9000 * k, 800, 8000, 8000))).collect();
+    assert!(!is_told(&each));
+}
+
+#[test]
+fn a_lone_letter_that_makes_places_displacements_is_told() {
+    let plot = |lone: &str, others: usize| {
+        let absolute: String = (0..others).map(|k| format!("PU;PA{},0;PD;PA{0},80;", 100 * k + 9000)).collect();
+        source(format!("IN;SP1;{}PA9000,0;{absolute}{lone}PU;SP0;", rectangle(0, 0, 8000, 8000)))
+    };
+    let is_told = |lone: &str, others| read(&plot(lone, others), &Job::default()).1.contains(&"hpgl/lone-mode");
+    assert!(is_told("PU;PR90,0;PA0,0;", 6));
+    assert!(!is_told("PU;PR90,0;PA0,0;", 2) && !is_told("PR;PA;", 6) && !is_told("", 6));
+}
+
+#[test]
+fn queries_of_the_interface_amid_places_and_unknown_settings_lose_nothing() {
+    let cut = |text: &str| {
+        let (marker, told) = read(&source(format!("IN;SP1;{text}PU;SP0;")), &Job::default());
+        (outlines(&marker), told)
+    };
+    let whole = cut("PU800,800;PD12800,800,12800,8800,800,8800,800,800;");
+    assert_eq!(cut("PU800,800;PD12800,800,12800,8800\x1b.B,800,8800,800,800;"), whole);
+    let (outlines, told) = cut("PU800,800;PD12800,800,12800,8800,800,8800,800,800;SP3;ZP-10,50;PU0,0;");
+    assert_eq!((outlines, told), (whole.0, vec!["hpgl/unknown-instruction"]));
+    // Amid an outline an unknown instruction may have been a place.
+    let amid = "PU800,800;PD12800,800,12800,8800;ZP800,8800;PD800,800;";
+    assert!(cut(amid).1.contains(&"hpgl/lost-place"));
+}
+
+#[test]
+fn a_last_list_without_a_semicolon_is_told_though_its_outline_closes() {
+    let part = rectangle(0, 0, 8000, 8000);
+    let open = part.trim_end_matches(';');
+    let is_told = |text: &str| read(&source(format!("IN;SP1;{text}")), &Job::default()).1.contains(&"hpgl/no-end");
+    assert!(is_told(open) && !is_told(&part) && !is_told(&format!("{open}\n")));
+}
+
+/// A digit of IP or SC that is lost stretches every part; a calibration makes less than one percent.
+#[test]
+fn scales_of_x_and_y_that_differ_are_told_with_what_they_draw() {
+    let is_told = |scale: &str| {
+        let text = format!("IN;{scale}SP1;PU1,1;PD11,1,11,9,1,9,1,1;PU;SP0;");
+        read(&source(text), &Job::default()).1.contains(&"hpgl/uneven-scale")
+    };
+    assert!(is_told("IP0,0,1016,1000;SC0,1,0,1;") && is_told("SC0,1016,0,1000,2;"));
+    assert!(is_told("SC0,1,0,1;IP0,0,10016,1016;"));
+    for even in
+        ["IP0,0,1016,1012;SC0,1,0,1;", "IP0,0,1016,1000;SC0,1,0,1,1;", "IP0,0,9,1016;IP0,0,1016,1016;SC0,1,0,1;"]
+    {
+        assert!(!is_told(even), "{even}");
+    }
+}
+
 #[test]
 fn instructions_with_more_numbers_than_they_take_are_errors() {
     let is_refused = |instruction: &str| {
