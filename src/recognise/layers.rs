@@ -95,6 +95,7 @@ fn listed(names: &[&str]) -> String {
 
 /// Names in quotes, as many as fit in a message.
 fn quoted(names: &[&str]) -> String {
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let quoted = |name: &&str| if name.is_empty() { "one without a name".to_owned() } else { format!("`{name}`") };
+    let shown: Vec<String> = names.iter().take(SHOWN).map(quoted).collect();
     format!("{}{}", shown.join(", "), if names.len() > SHOWN { ", ..." } else { "" })
 }

@@ -66,6 +66,8 @@ codes! {
     DXF_CUT_SHORT = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
     /// A damaged number.
     DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number, or a flag or count no whole one.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
+    /// A group whose code is changed.
+    DXF_STRAY_GROUP = warning(Spoils, Text, "dxf/stray-group", "An INSERT or a POINT of a DXF file has a group with a code that such entities do not have, and others of its kind have none.", "Groups are told apart by their codes alone. Where a digit of one is lost or doubled, the scale or the angle of an insertion, or the depth of a notch, has its usual value. Transfer the file again and compare the sizes.\n  441   may have been 41, the scale of an INSERT along X");
     /// A place without X or Y.
     DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate, or has more of them than one of its kind.", "A place that is taken for 0 would pull the outline across the cloth. A coordinate that stands twice is that of another entity, whose first group is lost. Lines were lost on the way: export or transfer the file again.");
     /// A place that no table reaches.
@@ -144,6 +146,8 @@ codes! {
     DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, T, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline, or its crossbar would leave the part. A slit of the same depth marks the same place.");
     /// Something to cut outside.
     DXF_OUTSIDE = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
+    /// Sizes over each other.
+    DXF_GRADED = error(Shape, "dxf/outlines-in-each-other", "On layer 1 of a block of a DXF file three outlines or more lie in each other, each of which takes more than half of the outermost one.", "A nest of sizes looks so: the outlines of all sizes of a piece, drawn over each other in one block. Cut as they stand, the largest would be cut into rings. Let the CAD system export each size as a block of its own, with its SIZE.");
     /// A cut-out that may be no cut-out.
     DXF_LARGE_CUT_OUT = warning(Spoils, Shape, "dxf/large-cut-out", "On layer 1 of a DXF file an outline lies in another one and takes more than half of it; it is cut as a cut-out.", "A piece with such a hole is a frame. More often the outline is drawn twice, a little apart, or the seam line lies on layer 1 with it. Look at the picture (-t svg) before you cut.");
     /// Layers that may be exchanged.
@@ -152,6 +156,8 @@ codes! {
     DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, or the name or quantity of a piece, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83), of drill holes (13) or of turn and curve points (2, 3), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
+    /// A quantity in a form of its own.
+    DXF_QUANTITY_UNCLEAR = error(Text, "dxf/quantity-unclear", "The quantity of a piece has several numbers in a form that is not known, such as `1;1`, `L1 R1` or `1+1`.", "Right and left pieces are mirror images of each other: cut once, or twice alike, a sleeve is missing. Write the numbers of right and left pieces with a comma, or cut each piece once.\n  QUANTITY: 1,1\n  cutc compile pattern.dxf --quantity one");
     /// A quantity that cannot be read.
     DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or cannot be read, and the piece is cut once; or it counts pairs; or it has words behind its number, which holds.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// Two counts of a piece.

@@ -15,6 +15,7 @@ use super::group::groups;
 use super::insert::{Placing, base};
 use super::nurbs::Nurbs;
 use super::page::page;
+use super::stray;
 use super::told::Told;
 use super::unit::unit;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -77,6 +78,7 @@ const MOST_ENTITIES: usize = 8_000_000;
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     let groups = groups(source, out);
     let sections = sections(source, &groups, out);
+    stray::say(&sections, out);
     let extent = || Lowering::of(source, &sections, job, &mut Diagnostics::default()).drawn(1.0).extent();
     let unit = unit(&job.profile.dxf, sections.unit, source, extent, out);
     let drawing = Lowering::of(source, &sections, job, out).drawn(unit.mm);

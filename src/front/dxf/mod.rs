@@ -6,7 +6,8 @@
 //! module. Never decides what is cut. Never draws hidden content: frozen layers, paper space, blocks without an insertion.
 //!
 //! [`lower`] follows the entities, [`insert`] places inserted blocks, [`conic`] and [`nurbs`] convert curves to chords, `fit`
-//! lays a curve through points, [`mod@unit`] has the table of units, [`told`] reports the parts that are not drawn.
+//! lays a curve through points, [`mod@unit`] has the table of units, [`told`] reports the parts that are not drawn, [`stray`]
+//! groups with codes that their entities do not have.
 
 pub(in crate::front) mod arc;
 mod conic;
@@ -17,6 +18,7 @@ mod insert;
 mod lower;
 mod nurbs;
 pub(in crate::front) mod page;
+pub(in crate::front) mod stray;
 pub(in crate::front) mod syntax;
 mod told;
 pub(in crate::front) mod unit;

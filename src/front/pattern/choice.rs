@@ -237,6 +237,12 @@ fn worded(text: &str) -> Option<Wanted> {
     })
 }
 
+/// True if a text has two numbers or more, which may be those of right and left pieces.
+fn has_several_numbers(text: &[u8]) -> bool {
+    let is_of_number = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+    text.chunk_by(|a, b| is_of_number(a) == is_of_number(b)).filter(|run| run[0].is_ascii_digit()).count() > 1
+}
+
 impl Asked<'_> {
     /// Texts of the file that name its CAD system.
     pub(super) fn author(&self) -> String {
@@ -257,6 +263,7 @@ impl Asked<'_> {
         let span = said.first?;
         let wanted = quantity(&self.letters.text(self.source.slice(span)));
         match wanted {
+            None if has_several_numbers(self.source.slice(span)) => tally.add(Thing::QuantityUnclear, span),
             None => tally.add(Thing::Quantity, span),
             Some(Wanted { words, .. }) => words.into_iter().for_each(|words| tally.add(words, span)),
         }
@@ -291,6 +298,12 @@ mod tests {
         }
         for text in ["1L 1R", "0 PAIRS", "PAIR", "1+1", "1/1", "1 (R), 1 (L)", "2 x SELF", "x", "2 ", "()", "2 ()("] {
             check(text, times("2").filter(|_| text == "2 "));
+        }
+        for text in ["1;1", "L1 R1", "1+1", "1 L + 1 R", "1,1,1", "1 / 1.0"] {
+            assert!(times(text).is_none() && has_several_numbers(text.as_bytes()), "{text}");
+        }
+        for text in ["0", "1.5", "two", "x2", "", "1 L"] {
+            assert!(!has_several_numbers(text.as_bytes()), "{text}");
         }
     }
 }

@@ -149,8 +149,11 @@ impl Making<'_> {
             let wholes = Wholes { fold, curves: &curves };
             let before = std::mem::take(&mut self.curved);
             let mut piece = self.piece(&plain, wholes, Content { span, ..content });
-            for line in outline.large_inner() {
-                self.tally.add(Thing::LargeCutOut, line.vertices[0].span);
+            // Two that take more than half of the outline each lie in each other: no piece has a cut-out in a cut-out.
+            let large: Vec<Span> = outline.large_inner().map(|line| line.vertices[0].span).collect();
+            match large[..] {
+                [first, _, ..] => self.tally.add(Thing::Graded, first),
+                _ => large.into_iter().for_each(|span| self.tally.add(Thing::LargeCutOut, span)),
             }
             let inner: Vec<Chain> = outline.inner.iter().flat_map(|line| self.wholes(wholes, OUTLINE, line)).collect();
             piece.inner.splice(0..0, inner);

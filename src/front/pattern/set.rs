@@ -24,6 +24,7 @@ use super::unknown;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::front::dxf::entity::{Block, Entity, NAME, Sections, sections};
 use crate::front::dxf::group::groups;
+use crate::front::dxf::stray;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::Label;
@@ -84,6 +85,7 @@ struct Parts<'a> {
 
 impl<'a> Parts<'a> {
     fn of(sections: &'a Sections<'a>, source: &'a Source, job: &'a Job, out: &mut Diagnostics) -> Self {
+        stray::say(sections, out);
         let lettered = letters(sections, source, &job.profile.labels);
         lettered.say(out);
         Self { source, job, sections, letters: lettered.letters }

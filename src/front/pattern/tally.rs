@@ -19,6 +19,8 @@ pub(super) enum Thing {
     StrokeOfPoints,
     /// A quantity is zero or malformed.
     Quantity,
+    /// A quantity has several numbers in another form than right and left.
+    QuantityUnclear,
     /// A quantity counts pairs.
     QuantityPairs,
     /// The number of a quantity is followed by words.
@@ -41,6 +43,8 @@ pub(super) enum Thing {
     OnAnother,
     /// An outline inside another one takes up most of it.
     LargeCutOut,
+    /// Outlines inside each other, each of which takes up most of the one around it.
+    Graded,
     /// A seam line encloses its outline.
     SeamOutside,
     /// A piece is drawn on both sides of its fold line.
@@ -86,6 +90,7 @@ fn row(thing: Thing) -> Row {
         Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
         Thing::StrokeOfPoints => Row { code: &code::DXF_STROKE, one: "a line on layer 2 or 3 is not cut", many: "lines on layers 2, 3 are not cut", hint: "they hold points; draw what is to be cut on layer 1, or on 11 if it lies inside" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or cannot be read; the piece is cut once", many: "quantities are 0 or cannot be read; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::QuantityUnclear => Row { code: &code::DXF_QUANTITY_UNCLEAR, one: "a quantity has several numbers: are they right and left?", many: "quantities have several numbers: are they right and left?", hint: "one right and one left are `QUANTITY: 1,1`; `--quantity one` cuts each piece once" },
         Thing::QuantityPairs => Row { code: &code::DXF_QUANTITY, one: "a quantity counts pairs: each is a right piece and a mirrored left one", many: "quantities count pairs: each is a right piece and a mirrored left one", hint: "if none is to be mirrored write the number of pieces without the word" },
         Thing::QuantityWords => Row { code: &code::DXF_QUANTITY, one: "words stand behind the number of a quantity, which holds", many: "quantities have words behind their number, which holds", hint: "none is mirrored: right and left are `QUANTITY: 1,1`" },
         Thing::TwoQuantities => Row { code: &code::DXF_SAID_TWICE, one: "a piece has two quantities, the other one here", many: "pieces have two quantities, another one", hint: "see which is right; `--quantity one` cuts each piece once" },
@@ -97,6 +102,7 @@ fn row(thing: Thing) -> Row {
         Thing::Unnamed => Row { code: &code::DXF_NOT_PLACED, one: "a block whose name begins with `*` draws on layers that are cut, no INSERT places it, and it is not cut", many: "blocks whose names begin with `*` draw on layers that are cut, no INSERT places them, and they are not cut", hint: "CAD systems have such blocks for dimensions and groups; count the pieces with `cutc info`" },
         Thing::OnAnother => Row { code: &code::DXF_ON_ANOTHER, one: "an INSERT puts this piece on another one", many: "pieces are put on others by INSERTs", hint: "in a marker give each piece a free place; in a set of patterns delete the INSERTs" },
         Thing::LargeCutOut => Row { code: &code::DXF_LARGE_CUT_OUT, one: "an outline lies in another one and takes more than half of it; it is cut as a cut-out", many: "outlines lie in others and take more than half of them; they are cut as cut-outs", hint: "see in the picture (-t svg) whether the same outline is drawn twice, or its seam line with it" },
+        Thing::Graded => Row { code: &code::DXF_GRADED, one: "outlines lie in each other, three or more: sizes of one piece?", many: "blocks have outlines in each other: sizes of one piece?", hint: "let the CAD system export each size as a block of its own" },
         Thing::SeamOutside => Row { code: &code::DXF_SEAM_OUTSIDE, one: "a seam line (layer 14) goes round its outline (layer 1)", many: "seam lines (layer 14) go round their outlines (layer 1)", hint: "the layers may be exchanged: compare the extent with the piece with its seam allowance" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
         Thing::NoFoldLine => Row { code: &code::DXF_NO_FOLD_LINE, one: "a piece is marked as cut on the fold but has no fold line (layer 6); it is cut as drawn", many: "pieces to cut on the fold have no fold line (layer 6); they are cut as drawn", hint: "if half a piece is drawn, let the CAD unfold it or draw its fold line on layer 6" },
