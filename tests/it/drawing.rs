@@ -398,8 +398,8 @@ fn open_outlines_on_the_layer_of_the_knife_are_told() {
 fn a_bent_line_outside_all_parts_on_the_layer_of_the_knife_is_told() {
     let told = |open: &[[f64; 2]]| {
         let line = |places: &[[f64; 2]], closed: u8| {
-            let vertices: String =
-                places.iter().map(|[x, y]| format!("0\nVERTEX\n8\nCUT\n10\n{x}\n20\n{y}\n")).collect();
+            let vertex = |[x, y]: &[f64; 2]| format!("0\nVERTEX\n8\nCUT\n10\n{x}\n20\n{y}\n");
+            let vertices = places.iter().map(vertex).collect::<Vec<_>>().concat();
             format!("0\nPOLYLINE\n8\nCUT\n66\n1\n70\n{closed}\n{vertices}0\nSEQEND\n")
         };
         let square = line(&[[0.0, 0.0], [300.0, 0.0], [300.0, 300.0], [0.0, 300.0]], 1);

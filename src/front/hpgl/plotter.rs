@@ -153,7 +153,7 @@ impl Plotter {
 
     /// Records an unreadable item that may have moved the pen. Inside a line it is a missing place.
     pub(super) fn lose(&mut self, span: Span) {
-        if self.is_amid_stroke() {
+        if self.is_down && !self.drawing.is_closed() {
             self.lost.add(span);
         } else {
             self.standing = Standing::Lost(span);

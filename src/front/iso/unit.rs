@@ -262,7 +262,7 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
     let (length, width) = extent.size();
     let per_inch = MM_PER_INCH / unit.mm;
     // As inches it would be a marker, and as written it is narrower than any.
-    let is_marker_in_inches = !unit.by_profile && width * per_inch <= WIDEST && length * per_inch <= LONGEST;
+    let is_marker_in_inches = !unit.by_profile && width * per_inch <= WIDEST && length * per_inch <= LONGEST_LAY_MM;
     let is_small = length.max(width) < SMALLEST_OF_DECIMALS || is_marker_in_inches;
     if unit.is_of_inches() && is_small && has_decimals(bytes) {
         out.push(of_decimals(unit, extent));

@@ -7,6 +7,7 @@ use crate::back::Estimate;
 use crate::back::html::about::{About, clock};
 use crate::back::html::piece::Marks;
 use crate::back::html::record::Sums;
+use crate::ir::Marker;
 use crate::ir::declaration::Total;
 use crate::ir::motion::Bound;
 use crate::machine::NotchStyle;
@@ -55,16 +56,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         ("Extent of the pieces", format!("{} x {} mm", fixed(width, 1), fixed(height, 1))),
         ("Lines to cut", format!("{} m as they are drawn", metres(marker.cut_length()))),
     ];
-    if marker.spared > 0.0 {
-        let less = format!(
-            "{} m are cut once for two parts, {} m less",
-            metres(marker.common_length()),
-            metres(marker.spared)
-        );
-        rows.push(("Edges in common", less));
-    }
-    let near = marker.near_length();
-    rows.extend((near > 0.0).then(|| ("Thin strips", format!("{} m beside edges of other parts", metres(near)))));
+    rows.extend(between_parts(marker));
     rows.extend(notches(about).map(|notches| ("Notches and holes", notches)));
     if let Some(area) = area(marker, &about.context.job.profile) {
         let of = width * height;
@@ -107,6 +99,15 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         spent(about, sums, out);
         limited(about, sums, out);
     }
+}
+
+/// Lengths of edges that two parts have in common, and of those that lie close to each other.
+fn between_parts(marker: &Marker) -> impl Iterator<Item = (&'static str, String)> {
+    let (common, spared, near) = (marker.common_length(), marker.spared, marker.near_length());
+    let once = format!("{} m are cut once for two parts, {} m less", metres(common), metres(spared));
+    let strips = format!("{} m beside edges of other parts", metres(near));
+    let rows = [(spared, "Edges in common", once), (near, "Thin strips", strips)];
+    rows.into_iter().filter(|(length, ..)| *length > 0.0).map(|(_, name, words)| (name, words))
 }
 
 /// Length in metres.

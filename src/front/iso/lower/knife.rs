@@ -28,7 +28,9 @@ impl Lowering<'_> {
         if self.knife.is_down() {
             self.start.serve();
             let finding = self.strokes.up(self.knife.stroke(), self.knife.piece_number());
-            finding.into_iter().for_each(|finding| self.out.push(finding));
+            if let Some(finding) = finding {
+                self.out.push(finding);
+            }
         }
         self.knife.up(self.out);
     }
