@@ -330,7 +330,7 @@ fn a_start_that_the_pen_leaves_without_drawing_is_told_where_it_is_rare() {
     }
     assert!(!is_told("PU800,9800;PU16000,800;"));
     // A program that does so always means nothing by it.
-    let each = |k| format!("PU800,9800;{}", rectangle(16_000 + 9000 * k, 800, 8000, 8000));
+    let each = |k: i64| format!("PU800,9800;{}", rectangle(16_000 + 9000 * k, 800, 8000, 8000));
     let each = (0..3).map(each).collect::<Vec<_>>().concat();
     assert!(!is_told(&each));
 }
@@ -338,7 +338,7 @@ fn a_start_that_the_pen_leaves_without_drawing_is_told_where_it_is_rare() {
 #[test]
 fn a_lone_letter_that_makes_places_displacements_is_told() {
     let plot = |lone: &str, others: usize| {
-        let absolute = |k| format!("PU;PA{},0;PD;PA{0},80;", 100 * k + 9000);
+        let absolute = |k: usize| format!("PU;PA{},0;PD;PA{0},80;", 100 * k + 9000);
         let absolute = (0..others).map(absolute).collect::<Vec<_>>().concat();
         source(format!("IN;SP1;{}PA9000,0;{absolute}{lone}PU;SP0;", rectangle(0, 0, 8000, 8000)))
     };
