@@ -173,6 +173,7 @@ fn lines_that_are_no_slits_stay_open_contours() {
         assert_eq!((marker.pieces[0].notches.len(), marker.pieces[0].contours.len()), (0, 2), "{line}");
     };
     check("X1000Y400*M14*X849Y400*", &[]); // a dart
-    check("X500Y400*M14*X550Y400*", &[]); // a straight cut inside, as for a pocket
+    check("X300Y400*M14*X600Y400*", &[]); // a straight cut inside, as for a pocket
+    check("X500Y400*M14*X550Y400*", &["marker/stray-stroke"]); // one as short as a notch
     check("X1000Y400*M14*X950Y400*X950Y450*", &["marker/open-contour"]); // an L
 }

@@ -250,7 +250,7 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
     } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
-        || gap > NEAR_ENDS && is_alone() && gap < BENT_SHARE * length()
+        || marker.drawing.is_some() && gap > NEAR_ENDS && is_alone() && gap < BENT_SHARE * length()
         || gap < GAP_SHARE * length()
         || AROUND.iter().any(|[share, area]| gap < share * length() && goes_around(&points, area * length().powi(2)))
     {

@@ -309,7 +309,7 @@ fn the_unit_is_that_of_the_profile() {
         assert!((width_found - width).abs() < 1e-9, "{unit}: {width_found}");
     }
     let wide = source(format!("IN;{}PU;", rectangle(0, 0, 800_000, 400_000)));
-    assert_eq!(read(&wide, &Job::default()).1, ["hpgl/unit-doubtful"]);
+    assert_eq!(read(&wide, &Job::default()).1, ["hpgl/unit-doubtful", "drawing/size"]);
 }
 
 /// What is found in a plot with these options, as people read it.

@@ -46,7 +46,9 @@ fn check(shape: Shape) {
         let input = pipeline::read(&source, None, &Job::default(), &mut found).expect("a cut file");
         let bytes = source.bytes().escape_ascii();
         assert_eq!(text(&input.marker), text(&sheet.marker()), "seed {seed}: {bytes}");
-        assert_eq!(render(&found, &source), "", "seed {seed}: {bytes}");
+        // Inch files of older cutters state no unit.
+        let is_said = found.iter().any(|finding| finding.code.name != "iso/no-unit");
+        assert!(!is_said, "seed {seed}: {bytes}: {}", render(&found, &source));
         let labels = input.marker.pieces.iter().flat_map(|piece| &piece.labels).map(|label| source.slice(label.span));
         let texts = sheet.parts.iter().flat_map(|part| &part.labels).map(|label| label.words.as_bytes());
         assert!(labels.eq(texts), "seed {seed}: {bytes}");

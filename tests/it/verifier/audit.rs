@@ -168,7 +168,7 @@ fn what_a_file_cuts_to_and_fro_or_twice_is_cut_once_and_nothing_is_lost() {
 fn the_scan_obeys_the_codes_that_the_reader_obeys() {
     let body = "X0Y0*M14*X1000Y0*X1000Y1000*X0Y0*M15*";
     let lettered = body.replace("M14", "B").replace("M15", "A");
-    let both = format!("H1*G71*M15*N1*{body}X2000Y0*B*X3000Y0*X3000Y900*X2000Y0*A*M31*4500Y500*FRONT 1*A1000Y1000*M0*");
+    let both = format!("H1*G71*M15*N1*{body}X2000Y0*B*X3000Y0*X3000Y900*X2000Y0*A*M31*4500Y500*FRONT 1*A1000*M0*");
     let rest = format!("H1*G71*N1*{lettered}X800Y100*R*M43*X700Y100*M0*");
     let arcs = "H1*G71*N1*X0Y0*M14*G02*X1000Y0I500*X0Y0R500*G00*X0Y900*X0Y0*M15*M0*";
     let mirrored = format!("H1*G71*N1*X300Y300M31*FRONT*HTRUOF*X400Y300M31*{body}M0*");
