@@ -382,15 +382,17 @@ def passed(browser):
     check("piece 1" in browser.evaluate(told), "and says the piece again when the clock goes on")
     browser.evaluate("cutc.player.seek(0); document.activeElement.blur()")
     browser.press("n")
-    first = browser.evaluate("(({ x, y }) => [Number(x), Number(y)])(document.querySelector('button.jump').dataset)")
+    stepped = ("[...document.querySelectorAll('button.jump')].filter(button => button.checkVisibility()"
+               " && button.closest('#messages, .broken, #deviations'))")
+    first = browser.evaluate(f"(({{ x, y }}) => [Number(x), Number(y)])({stepped}[0].dataset)")
     check(browser.evaluate("cutc.player.cloth.spot") == first, "the key goes to the first place")
     check(browser.evaluate("cutc.player.tick") > 0, "and to its moment")
-    browser.click("button.jump:not([data-time])")
-    at = browser.evaluate("[...document.querySelectorAll('button.jump')].indexOf(cutc.player.jump)")
-    count = browser.evaluate("document.querySelectorAll('button.jump').length")
+    browser.click("#messages button.jump, #deviations button.jump")
+    at = browser.evaluate(f"{stepped}.indexOf(cutc.player.jump)")
+    count = browser.evaluate(f"{stepped}.length")
     for shift, expected in [(False, at + 1), (True, at), (True, at - 1)]:
         browser.press("N" if shift else "n", "KeyN", shift=shift)
-        here = browser.evaluate("[...document.querySelectorAll('button.jump')].indexOf(cutc.player.jump)")
+        here = browser.evaluate(f"{stepped}.indexOf(cutc.player.jump)")
         check(here == expected % count, f"the key goes on from the place that was pressed: {here}, not {expected % count}")
 
 

@@ -7,8 +7,8 @@ const WORDS = [
   "rest at the end", "wait for the knife to be up", "travel", "turn", "plunge", "cut", "lift", "stop of the file",
   "cloth is moved on",
 ];
-/** What is stepped through: messages and broken rules. */
-const STEPPED = "#messages, .broken";
+/** What is stepped through: messages, broken rules and declared deviations. */
+const STEPPED = "#messages, .broken, #deviations";
 /** Buttons that do what a key does. */
 const BUTTONS = {
   cut_next: "ArrowRight", cut_before: "ArrowLeft", piece_next: "Shift+ArrowRight", piece_before: "Shift+ArrowLeft",
