@@ -48,9 +48,9 @@ fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said()
     check(
         "an outline with long segments",
         &format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}"),
-        &["hpgl/unit-doubtful", "drawing/search-ended", "drawing/drawn-again"],
+        &["hpgl/unit-doubtful", "drawing/search-ended", "drawing/size", "drawing/drawn-again"],
     );
     let way = many(200_000, &|i| format!("{},0,", 3 * (200_000 - i)));
     let back = many(200_000, &|i| format!(",{},0", 3 * (i + 1)));
-    check("a way out and back", &format!("PU600000,0;PD{way}0,0,0,9000,-9000,9000,0,0{back};"), &[]);
+    check("a way out and back", &format!("PU600000,0;PD{way}0,0,0,9000,-9000,9000,0,0{back};"), &["drawing/size"]);
 }
