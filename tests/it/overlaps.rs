@@ -18,7 +18,7 @@ const PART: [f64; 4] = [0.0, 0.0, 300.0, 200.0];
 const DEEP: &str = "error[marker/deep-overlap]";
 const SHALLOW: &str = "warning[marker/overlapping-pieces]";
 
-/// What is said of a part and another rectangle, with options.
+/// Findings on a part and another rectangle, with options.
 fn said(other: [f64; 4], options: &str, code: i32) -> String {
     Room::with("two.cut", &cut(&[PART, other])).expect(&format!("check two.cut {options}"), code).1
 }

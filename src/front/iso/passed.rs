@@ -5,7 +5,7 @@ use super::syntax;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
-/// What was passed over so far.
+/// Bytes and passages that were passed over so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Passed {
     /// Deleted passages that hold the end of a block or a knife-down: their number, their blocks, and the first of them.

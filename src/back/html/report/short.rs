@@ -95,7 +95,7 @@ fn off(about: &About, out: &mut Markup) {
     }
 }
 
-/// What most of the time is spent on, in words.
+/// Activities that most of the time is spent on, in words.
 fn spent(about: &About) -> String {
     let sums = &about.record.all;
     let mut parts: Vec<(&str, u64)> = Sums::PARTS.into_iter().zip(sums.ticks).collect();

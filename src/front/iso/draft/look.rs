@@ -1,4 +1,4 @@
-//! What the knife has cut since its last plunge.
+//! The cut since the last plunge of the knife.
 
 use super::{Draft, State};
 use crate::geom::Point;
