@@ -462,20 +462,32 @@ impl Marker {
             .collect()
     }
 
+    /// Ends along X of what is cut with a piece, by its index, mm: of a section, its stretch; `None` if nothing is cut.
+    pub fn cut_ends(&self, part: usize) -> Option<[f64; 2]> {
+        let mut extent = Extent::EMPTY;
+        self.each_place(part, |at| extent.add(at));
+        self.pieces[part].section.or_else(|| (!extent.is_empty()).then_some([extent.min.x, extent.max.x]))
+    }
+
     /// Box around all pieces under a map that depends on the piece.
     fn extent_at(&self, place: impl Fn(usize, Point) -> Point) -> Extent {
         let mut extent = Extent::EMPTY;
-        for (part, piece) in self.pieces.iter().enumerate() {
-            let mut add = |at: Point| extent.add(place(part, at));
-            for contour in &piece.contours {
-                self.list.points(contour.range).iter().copied().for_each(&mut add);
-            }
-            for stroke in piece.notches.iter().flat_map(Notch::strokes) {
-                add(stroke.from);
-                add(stroke.to);
-            }
-            piece.drills.iter().for_each(|drill| add(drill.at));
+        for part in 0..self.pieces.len() {
+            self.each_place(part, |at| extent.add(place(part, at)));
         }
         extent
+    }
+
+    /// Gives `take` every vertex, end of a slit and hole of a piece, by its index.
+    fn each_place(&self, part: usize, mut take: impl FnMut(Point)) {
+        let piece = &self.pieces[part];
+        for contour in &piece.contours {
+            self.list.points(contour.range).iter().copied().for_each(&mut take);
+        }
+        for stroke in piece.notches.iter().flat_map(Notch::strokes) {
+            take(stroke.from);
+            take(stroke.to);
+        }
+        piece.drills.iter().for_each(|drill| take(drill.at));
     }
 }

@@ -114,7 +114,9 @@ fn every_target_tells_how_far_the_cloth_is_moved_on_and_is_judged_by_it() {
     let hal = room.text("side/row.hal");
     assert!(hal.contains("cfg=fffbuuuu\n") && hal.contains("net advance-mm streamer.0.pin.7\n"), "{hal}");
     assert!(room.text("side/row.json").contains("\"advance_mm\": 620}"));
-    assert!(room.text("side/row.svg").contains("<title>piece 3, bite 3, "));
+    let picture = room.text("side/row.svg");
+    assert!(picture.contains("<title>piece 3, bite 3, ") && picture.contains(">bite 3, cloth moved 620 mm<"));
+    assert!(!picture.contains("split between bites"));
 }
 
 /// Damages of the rows of three windows.

@@ -259,7 +259,10 @@ fn a_piece_that_is_split_is_counted_once() {
     let said = room.says(&format!("check long.cut again.cut {BITES}"), DONE);
     assert!(said.lines().any(|line| line.split_whitespace().take(2).eq(["all", "6"])), "{said}");
     room.says(&format!("compile long.cut -o out/ -t json,svg {BITES}"), DONE);
-    assert!(room.text("out/long.json").contains("\"pieces\": 3,") && room.text("out/long.svg").contains("3 pieces, "));
+    assert!(room.text("out/long.json").contains("\"pieces\": 3,"));
+    let picture = room.text("out/long.svg");
+    assert!(picture.contains("3 pieces, ") && picture.contains("split between bites: "), "{picture}");
+    assert_eq!(picture.matches("<path class=\"border\" d=\"M").count(), picture.matches(" is split at X ").count() + 1);
 }
 
 /// Damages of the rows of three windows.

@@ -1,6 +1,6 @@
 //! The entries of the legend: symbols with their meanings.
 
-use super::{aside, common, near};
+use super::{aside, bites, common, near};
 use crate::back::target::Context;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
@@ -23,7 +23,7 @@ pub(super) enum Symbol {
     Target,
 }
 
-/// The entries of a picture: the common ones, common edges, near lines, then the lines of a plot that are drawn but not cut.
+/// The entries of a picture: the common ones, common edges, near lines, splits, then the lines of a plot that are drawn but not cut.
 pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let aside = aside::classes(context).map(|class| Item {
         class: aside::ASIDE,
@@ -34,7 +34,9 @@ pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let common = common::meaning(context);
     let common = common.map(|meaning| Item { class: common::COMMON, symbol: Symbol::Line, meaning });
     let near = near::meaning(context).map(|meaning| Item { class: near::NEAR, symbol: Symbol::Line, meaning });
-    all.chain(common).chain(near).chain(aside)
+    let border = bites::meaning(context);
+    let border = border.map(|meaning| Item { class: bites::BORDER, symbol: Symbol::Line, meaning });
+    all.chain(common).chain(near).chain(border).chain(aside)
 }
 
 const ITEMS: [(&str, Symbol, &str); 10] = [

@@ -1,7 +1,8 @@
-//! The legend below the drawing: scale, caption, symbols and the tables.
+//! The legend below the drawing: bars of windows, scale, caption, symbols and the tables.
 
 use std::fmt::Write;
 
+use super::bites;
 use super::declared;
 use super::doubts;
 use super::findings;
@@ -20,7 +21,7 @@ const SYMBOL_PX: f64 = 30.0;
 /// Maximum length of the scale bar, as a fraction of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
-/// Scale bar, caption, symbols and the tables of findings, doubts and declarations, below the drawing.
+/// Bars of windows, scale bar, caption, symbols and the tables of findings, doubts and declarations, below the drawing.
 pub(super) fn layer(
     sheet: &Sheet,
     context: &Context,
@@ -31,6 +32,8 @@ pub(super) fn layer(
     let left = sheet.left + MARGIN_PX * sheet.px;
     let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
     let mut y = sheet.legend + line / 2.0;
+    text.push_str(&bites::bars(context, sheet, y));
+    y += line * bites::lines(context, sheet.px) as f64;
     text.push_str(&scale_bar(sheet, Point::new(left, y)));
     text.push_str(&links(sheet, y));
     y += line;

@@ -6,11 +6,12 @@
 //!
 //! Layers from the bottom: lines of a plot that are not cut, pieces with their notches and numbers, labels, the path of the
 //! knife (a group for each contour, notch and drill), the word `refused` where no program is written, edges that are cut once
-//! for two parts, near lines, doubtful pieces, the worst places by the verifier, the places of declared deviations, the legend.
-//! In a browser the picture fills the window; a piece's number is a link to a view of that piece, and the legend links to the
-//! whole and to the actual size.
+//! for two parts, near lines, splits between windows of a conveyor, doubtful pieces, the worst places by the verifier, the
+//! places of declared deviations, the legend. In a browser the picture fills the window; a piece's number is a link to a view
+//! of that piece, and the legend links to the whole and to the actual size.
 
 mod aside;
+mod bites;
 mod common;
 mod declared;
 mod doubts;
@@ -67,6 +68,7 @@ fn tail(context: &Context, outcome: Outcome, out: &mut dyn Output) -> io::Result
     }
     text.push_str(&common::layer(context));
     text.push_str(&near::layer(context));
+    text.push_str(&bites::layer(context));
     text.push_str(&doubts::layer(outcome.doubts, &sheet, context));
     text.push_str(&findings::layer(&marks, &sheet, &context.job.profile.knife));
     text.push_str(&declared::layer(outcome.declared, &sheet));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::bites;
 use super::items::items;
 use super::mark::Mark;
 use super::markup::{PathData, escape, mm, short};
@@ -20,7 +21,7 @@ const LEAST_PX: f64 = MM_PER_INCH / 96.0;
 pub(super) const MARGIN_PX: f64 = 30.0;
 /// Height of a line and of text in the legend, pixels.
 pub(super) const LINE_PX: f64 = 24.0;
-const TEXT_PX: f64 = 13.0;
+pub(super) const TEXT_PX: f64 = 13.0;
 /// Width of a cell of the legend, pixels.
 pub(super) const CELL_PX: f64 = 220.0;
 /// Length of the arrows at the origin, pixels.
@@ -43,6 +44,7 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .label{fill:#333;fill-opacity:.85}
 .notch{stroke:currentColor;stroke-opacity:.5;stroke-width:6;stroke-linecap:round}
 .aside{stroke:#9a9a9a;stroke-width:.6}
+.border{stroke:#c2185b;stroke-width:2.2;stroke-dasharray:9 4}
 .common{stroke:#8fd400;stroke-width:5;stroke-opacity:.7}
 .near{stroke:#00a3c4;stroke-width:4;stroke-opacity:.6}
 .run{stroke:currentColor;stroke-width:1.5}
@@ -113,7 +115,7 @@ impl Sheet {
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
         let tables: usize = [marks.len(), declared.len(), doubts.len()].into_iter().map(table_lines).sum();
-        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + tables;
+        let lines = 2 + bites::lines(context, px) + items(context).count().div_ceil(sheet.columns()) + tables;
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet
     }

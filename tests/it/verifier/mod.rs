@@ -13,6 +13,7 @@ mod measure;
 mod names;
 mod outputs;
 mod paths;
+mod plunges;
 mod rows;
 mod sides;
 mod sketch;
