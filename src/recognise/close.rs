@@ -43,7 +43,7 @@ impl Reach {
 /// Determines how each line closes, and appends the rings to the vertices.
 pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach) {
     for line in lines.iter_mut() {
-        if line.is_set_aside() || line.size() <= SMALL_OUTLINE {
+        if line.is_set_aside() {
             continue;
         }
         let drawn = line.as_drawn(vertices);
@@ -52,8 +52,13 @@ pub(super) fn close(lines: &mut [Line], vertices: &mut Vec<Vertex>, reach: Reach
             *line = with_ring(line, vertices, Ring { places: ring, along: &[], closing: Closing::Retraced });
             continue;
         }
+        // A gap in a small line is the mouth of a notch, or part of a letter.
         let gap = (drawn[drawn.len() - 1].at - drawn[0].at).norm();
-        if gap == 0.0 || drawn.len() < LEAST_PLACES || gap > reach.close.max(WIDEST_OPEN * line.length) {
+        if line.size() <= SMALL_OUTLINE
+            || gap == 0.0
+            || drawn.len() < LEAST_PLACES
+            || gap > reach.close.max(WIDEST_OPEN * line.length)
+        {
             continue;
         }
         let closing = if gap <= reach.close { Closing::Gap(gap) } else { Closing::Open(gap) };

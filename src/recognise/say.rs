@@ -49,7 +49,7 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         let finding = Diagnostic::new(&code::DRAWING_SEARCH_ENDED, message);
         out.push(finding.hint("split the plot, or leave texts out"));
     }
-    if let Some(finding) = cut_short(sheet) {
+    if let Some(finding) = cut_short(sheet, job) {
         out.push(finding);
         return;
     }
@@ -397,8 +397,9 @@ fn frames(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     }
 }
 
-/// Refuses a file that is cut short: amid a number, or amid an outline where there are others.
-fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
+/// Refuses a file that is cut short: amid a number, or amid an outline where there are others. Inside a part that may be a
+/// cut-out, if these are cut.
+fn cut_short(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     let (span, is_amid_number) = match sheet.ending {
         Ending::Proper => return None,
         Ending::PenDown(span) => (span, false),
@@ -423,11 +424,13 @@ fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
         .find(is_last)
         .filter(|line| !line.is_closed || is_curve(line))?;
     let has_parts = sheet.lines.iter().any(|line| line.class == Class::Part);
-    let may_be_outline =
-        has_parts && last.class != Class::Notch && last.length > SHORTEST_CUT_SHORT && !Parts::of(sheet).hold(last);
-    let message = match (is_amid_number, may_be_outline) {
+    let is_long = has_parts && last.class != Class::Notch && last.length > SHORTEST_CUT_SHORT;
+    let cuts_inside = job.lines.inner.unwrap_or(job.profile.hpgl.inner) != Inner::Ignore;
+    let is_inside = is_long && Parts::of(sheet).hold(last);
+    let message = match (is_amid_number, is_long && (!is_inside || cuts_inside)) {
         (true, _) if last.is_closed => "the file ends amid a number, which the size of its last curve depends on",
         (true, _) => "the file ends amid a number, and the line that it draws does not close",
+        (false, true) if is_inside => "the file ends amid a line inside a part that does not close",
         (false, true) => "the file ends amid a line outside all parts that does not close",
         (false, false) => return None,
     };

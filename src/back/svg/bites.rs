@@ -1,11 +1,8 @@
-//! Windows of a conveyor: a bar for each below the drawing, as long as the stretch of cloth that is cut in it, and the borders
-//! at which they split pieces.
+//! Windows of a conveyor: the stretch of cloth that is cut in each, and the borders at which they split pieces.
 
 use super::markup::PathData;
-use super::piece::PALETTE;
-use super::sheet::{LINE_PX, Sheet, TEXT_PX};
 use crate::back::target::Context;
-use crate::geom::{Extent, Point, Vector};
+use crate::geom::{Extent, Point};
 use crate::ir::Marker;
 use crate::units::number::fixed;
 
@@ -13,21 +10,21 @@ use crate::units::number::fixed;
 pub(super) const BORDER: &str = "border";
 /// Width of a letter, as a fraction of the font size, at the most.
 const LETTER_WIDTH: f64 = 0.62;
-/// Height of the ends of a bar, and the distance of its text from it, pixels.
-const END_PX: f64 = 5.0;
-const TEXT_BELOW_PX: f64 = 9.0;
 
-/// A window as drawn.
-struct Window {
+/// A window as drawn below the marker: a bar and its text.
+pub(super) struct Window {
     /// Stretch of the cloth along X that is cut in it, mm.
-    ends: [f64; 2],
+    pub(super) ends: [f64; 2],
     /// Line of the legend, from 0.
-    row: usize,
-    words: String,
+    pub(super) row: usize,
+    pub(super) words: String,
+    /// Length of the words at the most, mm.
+    pub(super) length: f64,
 }
 
-/// The windows of a marker, in order; empty where the cloth lies still. Bars and texts of a row are free of each other.
-fn windows(marker: &Marker, px: f64) -> Vec<Window> {
+/// The windows of a marker, in order, with a font of `size` mm; empty where the cloth lies still. Bars and texts of a row are
+/// free of each other.
+pub(super) fn windows(marker: &Marker, size: f64) -> Vec<Window> {
     let stations = marker.stations();
     if stations.iter().all(|&station| station == 0) {
         return Vec::new();
@@ -43,41 +40,18 @@ fn windows(marker: &Marker, px: f64) -> Vec<Window> {
     let mut rows: Vec<f64> = Vec::new();
     let place = |(number, (station, ends)): (usize, (u32, [f64; 2]))| {
         let words = format!("bite {number}, cloth moved {station} mm");
-        let end = ends[1].max(ends[0] + length(&words, px));
+        let length = words.len() as f64 * LETTER_WIDTH * size;
         let row = rows.iter().position(|&last| last < ends[0]).unwrap_or(rows.len());
-        rows.resize(rows.len().max(row + 1), end);
-        rows[row] = end;
-        Window { ends, row, words }
+        rows.resize(rows.len().max(row + 1), 0.0);
+        rows[row] = ends[1].max(ends[0] + length);
+        Window { ends, row, words, length }
     };
     (1..).zip(found).map(place).collect()
 }
 
-/// Length of a text at the most, mm.
-fn length(words: &str, px: f64) -> f64 {
-    words.len() as f64 * LETTER_WIDTH * TEXT_PX * px
-}
-
-/// Lines that the bars take in the legend, with the size of a nominal pixel, mm.
-pub(super) fn lines(context: &Context, px: f64) -> usize {
-    windows(context.marker, px).iter().map(|window| window.row + 1).max().unwrap_or(0)
-}
-
-/// The bars, at their places along X, with the top of the first line.
-pub(super) fn bars(context: &Context, sheet: &Sheet, top: f64) -> String {
-    let mut text = String::new();
-    for (i, Window { ends: [from, to], row, words }) in windows(context.marker, sheet.px).into_iter().enumerate() {
-        let y = top + LINE_PX * sheet.px * row as f64;
-        let down = Vector::new(0.0, END_PX * sheet.px);
-        let [start, end] = [from, to].map(|x| Point::new(x, y));
-        let mut data = PathData::default();
-        data.line([start + down, start, end, end + down]);
-        text.push_str(&format!("<g color=\"{}\">{}", PALETTE[i % PALETTE.len()], data.element("run").trim_end()));
-        let most = sheet.left + sheet.width - length(&words, sheet.px);
-        let at = Point::new((start.x + END_PX * sheet.px).min(most), y + TEXT_BELOW_PX * sheet.px);
-        text.push_str(&sheet.text("", at, &words));
-        text.push_str("</g>\n");
-    }
-    text
+/// Lines that the bars take in the legend, with a font of `size` mm.
+pub(super) fn lines(context: &Context, size: f64) -> usize {
+    windows(context.marker, size).iter().map(|window| window.row + 1).max().unwrap_or(0)
 }
 
 /// Borders at which windows split pieces: the stretch of cloth within each piece.

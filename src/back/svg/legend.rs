@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::bites;
+use super::bites::{self, Window};
 use super::declared;
 use super::doubts;
 use super::findings;
@@ -10,7 +10,7 @@ use super::items::{Item, Symbol, items};
 use super::mark::Mark;
 use super::markup::{PathData, short};
 use super::piece::PALETTE;
-use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, caption, table_lines};
+use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, TEXT_PX, caption, table_lines};
 use crate::back::target::{Context, Outcome};
 use crate::geom::{Point, Vector};
 use crate::ir::verdict;
@@ -18,6 +18,9 @@ use crate::units::MM_PER_M;
 
 /// Width of a symbol, pixels.
 const SYMBOL_PX: f64 = 30.0;
+/// Height of the ends of a bar for a window, and the distance of its text from it, pixels.
+const END_PX: f64 = 5.0;
+const TEXT_BELOW_PX: f64 = 9.0;
 /// Maximum length of the scale bar, as a fraction of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
@@ -32,8 +35,8 @@ pub(super) fn layer(
     let left = sheet.left + MARGIN_PX * sheet.px;
     let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
     let mut y = sheet.legend + line / 2.0;
-    text.push_str(&bites::bars(context, sheet, y));
-    y += line * bites::lines(context, sheet.px) as f64;
+    text.push_str(&bars(context, sheet, y));
+    y += line * bites::lines(context, TEXT_PX * sheet.px) as f64;
     text.push_str(&scale_bar(sheet, Point::new(left, y)));
     text.push_str(&links(sheet, y));
     y += line;
@@ -71,6 +74,24 @@ pub(super) fn layer(
     y += line * table_lines(doubts.len()) as f64;
     text.push_str(&declared::table(declared, sheet, Point::new(left, y)));
     let _infallible = writeln!(text, "</g>\n<view id=\"whole\" viewBox=\"{}\"/>", sheet.view_box());
+    text
+}
+
+/// A bar for each window of a conveyor, at its place along X, with the top of the first line.
+fn bars(context: &Context, sheet: &Sheet, top: f64) -> String {
+    let mut text = String::new();
+    let windows = bites::windows(context.marker, TEXT_PX * sheet.px);
+    for (Window { ends: [from, to], row, words, length }, colour) in windows.into_iter().zip(PALETTE.iter().cycle()) {
+        let y = top + LINE_PX * sheet.px * row as f64;
+        let down = Vector::new(0.0, END_PX * sheet.px);
+        let [start, end] = [from, to].map(|x| Point::new(x, y));
+        let mut data = PathData::default();
+        data.line([start + down, start, end, end + down]);
+        let _infallible = write!(text, "<g color=\"{colour}\">{}", data.element("run").trim_end());
+        let most = sheet.left + sheet.width - length;
+        let at = Point::new((from + END_PX * sheet.px).min(most), y + TEXT_BELOW_PX * sheet.px);
+        let _infallible = writeln!(text, "{}</g>", sheet.text("", at, &words).trim_end());
+    }
     text
 }
 

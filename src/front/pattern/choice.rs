@@ -257,11 +257,14 @@ impl Asked<'_> {
             Quantity::File => {}
             Quantity::One => return None,
         }
-        if let Some(other) = said.other {
+        let span = said.first?;
+        let read = |span: Span| quantity(&self.letters.text(self.source.slice(span)));
+        let wanted = read(span);
+        // `2` and `2 ON FOLD` say the same.
+        let is_other = |wanted: Wanted, span: Span| read(span).is_none_or(|other| other.times != wanted.times);
+        if let Some(other) = said.other.filter(|&other| wanted.is_none_or(|wanted| is_other(wanted, other))) {
             tally.add(Thing::TwoQuantities, other);
         }
-        let span = said.first?;
-        let wanted = quantity(&self.letters.text(self.source.slice(span)));
         match wanted {
             None if has_several_numbers(self.source.slice(span)) => tally.add(Thing::QuantityUnclear, span),
             None => tally.add(Thing::Quantity, span),

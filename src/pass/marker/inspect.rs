@@ -8,7 +8,8 @@
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is, or a contour
 //!   that comes by its start and goes on.
-//! - A point of a contour stands far off between two that lie near each other: a digit of it may be wrong.
+//! - A point of a contour stands far off between two that lie near each other, or off a corner several times as far as the rest
+//!   is long: a digit of it may be wrong.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
@@ -52,6 +53,12 @@ const NEAR_ENDS: f64 = 5.0;
 const FAR: f64 = 300.0;
 /// Greatest distance between these neighbours, as a share of that.
 const FAR_SHARE: f64 = 0.1;
+/// Least distance of a corner from both of its neighbours, mm, from which on it may be as far from them as the rest of its contour
+/// is long; greatest distance between these neighbours, as a share of that; and least area of the rest, as a share of the square
+/// of its longer side: a long triangle has less.
+const FAR_CORNER: f64 = 1000.0;
+const CORNER_SHARE: f64 = 0.3;
+const CORNER_REST: f64 = 0.1;
 /// Least area of a contour without its far point, as a multiple of that of the spike.
 const REST: f64 = 4.0;
 /// Length of a spike, as a multiple of the extent of the rest of its contour, from which on that is compared with the square of
@@ -104,12 +111,13 @@ fn say_once(piece: u32, span: Span, diagnostics: &mut Diagnostics) {
     diagnostics.push(Diagnostic::new(&code::MARKER_ROUND_AGAIN, message).at(span));
 }
 
-/// Reports the number of contours that have a point far off between two neighbours that are close together, and the farthest.
+/// Reports the number of contours that have a point far off their other ones, and the farthest.
 fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     let is_far = |[before, at, after]: [Point; 3]| {
         let [back, on] = [before - at, after - at];
         let least = back.norm_squared().min(on.norm_squared());
-        least >= FAR * FAR && (on - back).norm_squared() <= FAR_SHARE * FAR_SHARE * least
+        let share = if least >= FAR_CORNER * FAR_CORNER { CORNER_SHARE } else { FAR_SHARE };
+        least >= FAR * FAR && (on - back).norm_squared() <= share * share * least
     };
     let (mut count, mut worst): (usize, Option<(f64, usize, Range, usize)>) = (0, None);
     for (piece, contour) in marker.contours() {
@@ -122,9 +130,13 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
         let far = begins.map(|k| [k - 1, k, k + 1]).chain(start).filter(|&three| is_far(three.map(|k| points[k])));
         let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
         let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
-        let is_wrong =
-            |three: [usize; 3]| stands_out(&points, three) || has_wrong_digit(three.map(|k| points[k]), marker.unit);
-        let Some(three) = farthest.filter(|&three| is_wrong(three)) else { continue };
+        let is_wrong = |three: &[usize; 3]| {
+            let places = three.map(|k| points[k]);
+            let far = Far::of(&points, *three);
+            let has_near = (places[2] - places[0]).norm() <= FAR_SHARE * off(*three);
+            far.is_corner() || has_near && (far.stands_out(marker.unit) || has_wrong_digit(places, marker.unit))
+        };
+        let Some(three) = farthest.filter(is_wrong) else { continue };
         count += 1;
         if worst.is_none_or(|(most, ..)| off(three) > most) {
             worst = Some((off(three), piece, contour.range, three[0]));
@@ -133,23 +145,53 @@ fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
     let Some((off, piece, range, segment)) = worst else { return };
     let (off, number) = (number::fixed(off, 0), marker.pieces[piece].number);
     let message = match count {
-        1 => format!("a point of piece {number} stands {off} mm off, between two that lie near each other"),
-        count => format!("{count} contours have a point far off between two near each other, piece {number} {off} mm"),
+        1 => format!("a point of piece {number} stands {off} mm off its neighbours"),
+        count => format!("{count} contours have a point far off its neighbours, piece {number} {off} mm"),
     };
     let span = marker.list.spans(range)[segment];
     let finding = Diagnostic::new(&code::MARKER_FAR_POINT, message).at(span).about(vec![number]);
     diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
 }
 
-/// True if a point and its neighbours are a spike out of the rest of the contour: the tip of a strip or of a godet is most of
-/// its part, unless it is several times as long as all the rest, and a dart or a slash leads into its part.
-fn stands_out(points: &[Point], [before, at, after]: [usize; 3]) -> bool {
-    let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
-    let spike = [before, at, after].map(|k| points[k]);
-    let (width, height) = Extent::of(&rest).size();
-    let is_longer = (spike[1] - spike[0]).norm() >= LONGER * width.max(height);
-    let base = if is_longer { (spike[2] - spike[0]).norm_squared() } else { ring::area(&spike).abs() };
-    ring::area(&rest).abs() >= REST * base && !ring::contains(&rest, points[at])
+/// A point far from its neighbours, and the rest of its contour.
+struct Far {
+    /// The neighbour before the point, the point, and the one behind it.
+    spike: [Point; 3],
+    rest: Vec<Point>,
+    /// Area of the rest, mm2, and its longer side, mm.
+    area: f64,
+    side: f64,
+}
+
+impl Far {
+    fn of(points: &[Point], [before, at, after]: [usize; 3]) -> Self {
+        let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
+        let (width, height) = Extent::of(&rest).size();
+        let spike = [before, at, after].map(|k| points[k]);
+        Self { spike, area: ring::area(&rest).abs(), side: width.max(height), rest }
+    }
+
+    /// True if the point is several times as far off as the rest of the contour is long.
+    fn is_longer(&self) -> bool {
+        let [before, at, after] = self.spike;
+        (at - before).norm().min((at - after).norm()) >= LONGER * self.side
+    }
+
+    /// True if a point and its neighbours are a spike out of the rest of the contour: the tip of a strip or of a godet is most
+    /// of its part, unless it is several times as long as all the rest. On a grid of `unit` mm (0 = none) a dart or a slash
+    /// leads into its part, and a wrong digit is told by its number.
+    fn stands_out(&self, unit: f64) -> bool {
+        let [before, at, after] = self.spike;
+        let base = if self.is_longer() { (after - before).norm_squared() } else { ring::area(&self.spike).abs() };
+        self.area >= REST * base && (unit <= 0.0 || !ring::contains(&self.rest, at))
+    }
+
+    /// True if the point is a corner of an outline that is moved far away.
+    fn is_corner(&self) -> bool {
+        let [before, at, after] = self.spike;
+        let least = (at - before).norm().min((at - after).norm());
+        least >= FAR_CORNER && self.is_longer() && self.area >= CORNER_REST * self.side * self.side
+    }
 }
 
 /// True if a point would lie between its neighbours with one digit more or less in one coordinate, on a grid of `unit` mm (0 =
@@ -255,7 +297,14 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         || AROUND.iter().any(|[share, area]| gap < share * length() && goes_around(&points, area * length().powi(2)))
     {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
-        let message = format!("a contour of piece {number} ends {size} mm from where it starts");
+        let extent = marker.list.extent(contour.range);
+        let is_in_it = |inner: &Contour| {
+            let Extent { min, max } = marker.list.extent(inner.range);
+            inner.closed && extent.holds(min) && extent.holds(max)
+        };
+        let inner =
+            if marker.pieces[piece].contours.iter().any(is_in_it) { "; one in it is cut as a part" } else { "" };
+        let message = format!("a contour of piece {number} ends {size} mm from where it starts{inner}");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint(if gap <= NEAR_ENDS || gap < GAP_SHARE * length() {
             "repeat the first point at its end if it should close"

@@ -66,7 +66,7 @@ fn begins_on_slit(slit: &Notch, other: &Notch) -> bool {
 }
 
 /// True if a slit reaches an edge besides the one on which it begins. A slit that begins neither on an edge nor on another slit
-/// is taken to begin where it first passes an edge.
+/// is taken to begin where it first passes an edge, unless it is too long for a notch and leads out of the part.
 fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget) -> bool {
     let slit = &slits[place];
     let around = Extent::of(&ends(slit)).grown(LEAST_BRIDGE);
@@ -83,6 +83,9 @@ fn meets_edge(slits: &[Notch], place: usize, part: &Outlines, work: &mut Budget)
     };
     let near: Vec<[Point; 2]> = part.edges_near(around).take_while(|_| work.spend(1)).collect();
     if near.iter().any(begins_on(slit.root)) || is_branch(work) {
+        return true;
+    }
+    if slit.depth() > Notch::LONGEST && part.holds(slit.root) {
         return true;
     }
     let root = first_passed(slit, &near);

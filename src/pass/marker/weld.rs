@@ -2,7 +2,8 @@
 //!
 //! Needs: contours as the reader left them, walked in list order, with `closed` undefined. Leaves true: no segment of length
 //! zero; within a piece no open contour that a later open one continues exactly; `closed` exactly if the ends meet. Contours
-//! keep the order of their first chains. Chains that make a ring except for a unit of the file meet halfway ([`sides`]).
+//! keep the order of their first chains. Chains that make a ring in either direction, except for a unit of the file, are joined and
+//! meet halfway ([`sides`]).
 
 use std::collections::BTreeSet;
 

@@ -205,13 +205,15 @@ fn a_seam_line_that_leaves_its_part_at_a_corner_is_its_seam_line() {
 
 #[test]
 fn a_file_ends_properly_unless_it_ends_amid_a_number_or_an_outline() {
-    let check = |end: &str, code: Option<&str>| {
+    let cut_outs = Job { lines: Lines { inner: Some(Inner::Cut), ..Lines::default() }, ..Job::default() };
+    let check_as = |end: &str, code: Option<&str>, job: &Job| {
         let source = source(format!("IN;SP1;{}{end}", part()));
         let mut said = Diagnostics::default();
-        pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, &Job::default(), &mut said);
+        pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, job, &mut said);
         let codes: Vec<&str> = said.iter().map(|finding| finding.code.name).collect();
         assert_eq!(codes, Vec::from_iter(code), "{end}");
     };
+    let check = |end: &str, code: Option<&str>| check_as(end, code, &Job::default());
     let open = "PU20000,4000;PD26000,4000,26000,8000";
     check("", None);
     check("PG;", None);
@@ -221,6 +223,10 @@ fn a_file_ends_properly_unless_it_ends_amid_a_number_or_an_outline() {
     check(&format!("{open};"), Some("drawing/cut-short"));
     check(open, Some("drawing/cut-short"));
     check("PU5000,5000;PD9000,500", Some("drawing/cut-short"));
+    let cut_out = "PU5000,5000;PD9000,5000,9000,9000;";
+    check(cut_out, None);
+    check_as(cut_out, Some("drawing/cut-short"), &cut_outs);
+    check_as(&format!("{cut_out}PU;"), None, &cut_outs);
     for end in ["PG;", "SP0;", "PU;", "\u{1b}E"] {
         check(&format!("{open};{end}"), Some("drawing/open-outlines"));
     }

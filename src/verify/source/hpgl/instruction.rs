@@ -189,13 +189,18 @@ impl Scan<'_> {
         } {}
     }
 
-    /// Places behind PU, PD, PA and PR.
+    /// Places behind PU, PD, PA and PR. A plotter takes a sequence for its interface (`ESC.B`) out of its input, here too.
     pub(super) fn places(&mut self) {
         loop {
             let cause = self.at;
             let (Some(x), Some(y)) = (self.number(), self.number()) else { return };
             let to = self.target([x, y], self.pen.is_relative);
             self.lead(to, cause);
+            let comma = usize::from(self.bytes.get(self.at) == Some(&b','));
+            if self.bytes[self.at + comma..].starts_with(b"\x1b.") {
+                self.at += comma;
+                self.escape();
+            }
         }
     }
 
