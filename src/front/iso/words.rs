@@ -5,7 +5,7 @@ use crate::front::Word;
 /// The codes of cut files and their effects.
 #[rustfmt::skip] // a table: one row per line
 pub(super) const WORDS: &[Word] = &[
-    Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down. Down and up without a place between is reported" },
+    Word { words: "`A`, `M15`; `B`, `M14`", about: "knife up; knife down. Down and up without a place between is reported. Strokes that make a ring are one outline, in any order and either way" },
     Word { words: "`N`", about: "a piece begins; with the knife down, at the next lift" },
     Word { words: "`G70`, `G71`, `G91`", about: "unit 0.0254 mm, 0.1 mm, 0.254 mm (this one, too, where none of them stands, which is reported). Two that contradict each other are refused; G91 for relative coordinates is not read" },
     Word { words: "`G01`; `G02`, `G03` with `I J` or `R` and a number", about: "straight lines; arcs, as chords within a quarter of the tolerance and 0.01 mm" },
@@ -17,7 +17,7 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "`M69`", about: "event 2 (advance), before the next piece" },
     Word { words: "`Z`", about: "bite size: no effect when it is longer than the marker or `bite.length_mm` is given, else reported" },
     Word { words: "`M17`; `M18`", about: "next plunge without heel overlap; next lift without front overlap" },
-    Word { words: "`M19`", about: "knife down: a slit; knife up: no overlaps at the next plunge and lift. A stroke of at most 15 mm that starts on an outline of its piece is a slit without it, too; one that the tip of a slit divides is the crossbar of a T" },
+    Word { words: "`M19`", about: "knife down: a slit; knife up: no overlaps at the next plunge and lift. A stroke of at most 15 mm that starts on an outline of its piece is a slit without it, too; one that the tip of a slit divides is the crossbar of a T. A slit that begins on no edge is reported" },
     Word { words: "`M46`", about: "lift and plunge at the next corner" },
     Word { words: "`R` without a number, `M43`; `M44`; `M45`, `M72`; `M73`", about: "drill 1; 2; 3; 4" },
     Word { words: "`M31`", about: "label, in four layouts; never cut" },
