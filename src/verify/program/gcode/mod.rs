@@ -97,8 +97,8 @@ pub(in crate::verify) struct Places<'a> {
     lines: u64,
     room: Vec<u8>,
     now: Row,
-    /// Places of the last lines, and the number of those that were given out.
-    places: Vec<(Row, Going)>,
+    /// Rows of the last lines, and the number of those that were given out.
+    rows: Vec<(Row, Going)>,
     given: usize,
     last: Going,
     /// Steps since the knife went down.
@@ -142,7 +142,7 @@ impl<'a> Places<'a> {
             lines: 0,
             room: Vec::new(),
             now,
-            places: vec![(now, Going::default())],
+            rows: vec![(now, Going::default())],
             given: 0,
             last: Going::default(),
             in_stroke: 0.0,
@@ -158,8 +158,8 @@ impl<'a> Places<'a> {
 
     /// Next place and the motion of the axes there.
     pub(in crate::verify) fn next(&mut self) -> Option<(Row, Going)> {
-        while self.given == self.places.len() && !self.ended {
-            self.places.clear();
+        while self.given == self.rows.len() && !self.ended {
+            self.rows.clear();
             self.given = 0;
             if let Err(why) = self.read() {
                 self.ended = true;
@@ -167,7 +167,7 @@ impl<'a> Places<'a> {
                 self.bad = Some((Row { line, ..self.now }.sighting(), format!("line {line} {why}")));
             }
         }
-        let next = self.places.get(self.given).copied();
+        let next = self.rows.get(self.given).copied();
         self.given += usize::from(next.is_some());
         next
     }
@@ -388,7 +388,7 @@ impl<'a> Places<'a> {
     fn push(&mut self, row: Row, going: Going) {
         self.now.tick += 1;
         self.now.t = self.now.tick as f64;
-        self.places.push((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
+        self.rows.push((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
     }
 
     /// Executes a move: adds all of its places.
