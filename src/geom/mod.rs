@@ -123,6 +123,12 @@ impl Extent {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
     }
 
+    /// True if the box of a segment shares a point with the box, edges included.
+    pub fn meets_box_of(&self, [a, b]: [Point; 2]) -> bool {
+        let meets = |a: f64, b: f64, low: f64, high: f64| (a <= high || b <= high) && (a >= low || b >= low);
+        meets(a.x, b.x, self.min.x, self.max.x) && meets(a.y, b.y, self.min.y, self.max.y)
+    }
+
     /// True if another box lies within this one.
     pub fn covers(&self, other: &Self) -> bool {
         self.holds(other.min) && self.holds(other.max)

@@ -14,15 +14,13 @@ pub fn length(points: &[Point]) -> f64 {
 
 /// Chord length from the first point to each point, mm.
 pub fn stations(points: &[Point]) -> Vec<f64> {
+    let mut from = points.first().copied().unwrap_or_default();
     let mut at = 0.0;
-    let mut stations = Vec::with_capacity(points.len());
-    for (i, point) in points.iter().enumerate() {
-        if i > 0 {
-            at += (point - points[i - 1]).norm();
-        }
-        stations.push(at);
-    }
-    stations
+    let station = |&point: &Point| {
+        at += (point - std::mem::replace(&mut from, point)).norm();
+        at
+    };
+    points.iter().map(station).collect()
 }
 
 /// Signed turn at an inner vertex, rad, left positive.

@@ -278,7 +278,7 @@ impl<'a> Region<'a> {
     /// Edges whose boxes meet a box; some appear more than once.
     fn near(&self, extent: Extent) -> impl Iterator<Item = Edge> + '_ {
         let edges = if self.extent.meets(&extent) { self.bands.near(extent.min.y, extent.max.y) } else { &[] };
-        edges.iter().map(|&i| self.edge(i)).filter(move |edge| edge.extent().meets(&extent))
+        edges.iter().map(|&i| self.edge(i)).filter(move |edge| extent.meets_box_of([edge.from, edge.to]))
     }
 
     /// True if a point inside lies deeper than `slack` mm, or, where the region is a strip, deeper than a quarter of its width.
@@ -334,10 +334,6 @@ impl<'a> Region<'a> {
 }
 
 impl Edge {
-    fn extent(&self) -> Extent {
-        Extent::between(self.from, self.to)
-    }
-
     fn distance(&self, point: Point) -> f64 {
         polyline::distance_to_segment(point, self.from, self.to)
     }

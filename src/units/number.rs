@@ -8,19 +8,11 @@ const INTEGER_PATH_MAX: f64 = 9.0e15;
 /// Maximum number of characters of such a number: its digits, padding for the decimals, a point and a sign.
 const DIGITS: usize = 32;
 
+/// Maximum number of digits before the point of such a number.
+const WHOLE: usize = 16;
+
 /// Buffer of a number. Its characters end in the middle, so that a copy of constant length can start at any of them.
 type Digits = [u8; 2 * DIGITS];
-
-/// The digits of the numbers below a hundred.
-const PAIRS: [[u8; 2]; 100] = {
-    let mut pairs = [[0; 2]; 100];
-    let mut i = 0;
-    while i < pairs.len() {
-        pairs[i] = [b'0' + (i / 10) as u8, b'0' + (i % 10) as u8];
-        i += 1;
-    }
-    pairs
-};
 
 /// Maximum number of decimals in any format here.
 const DECIMALS_MAX: usize = 9;
@@ -39,18 +31,17 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
         return;
     }
     // The difference to the integer part is exact.
-    let whole = scaled.abs() as u64;
-    let rounded = whole + u64::from(scaled.abs() - whole as f64 >= 0.5);
-    let mut digits: Digits = [0; 2 * DIGITS];
-    let mut at = DIGITS;
-    let mut before = rounded;
+    let whole = scaled.abs() as i64;
+    let rounded = (whole + i64::from(scaled.abs() - whole as f64 >= 0.5)) as u64;
+    let mut digits: Digits = [b'0'; 2 * DIGITS];
+    let mut at = put(&mut digits, rounded).min(DIGITS - 1 - decimals);
     if decimals > 0 {
-        let unit = POWERS[decimals] as u64;
-        before = rounded / unit;
-        at = put(&mut digits, at, (rounded % unit, decimals)) - 1;
-        digits[at] = b'.';
+        // The digits before the point make room for it.
+        let point = DIGITS - decimals;
+        digits.copy_within(point - WHOLE..point, point - WHOLE - 1);
+        at -= 1;
+        digits[point - 1] = b'.';
     }
-    at = put(&mut digits, at, (before, 1));
     if scaled < 0.0 && rounded > 0 {
         at -= 1;
         digits[at] = b'-';
@@ -65,26 +56,35 @@ fn append(out: &mut Vec<u8>, digits: &Digits, at: usize) {
     out.truncate(end);
 }
 
-/// Writes a number with at least `least` digits so that it ends before `end`, and returns its start. It works from the end in
-/// pairs of digits, so that there are few divisions, each by a constant hundred, which compiles to a multiplication.
-fn put(digits: &mut Digits, end: usize, (mut value, least): (u64, usize)) -> usize {
-    let mut at = end;
-    while value >= 10 || end - at + 1 < least {
-        at -= 2;
-        digits[at..at + 2].copy_from_slice(&PAIRS[(value % 100) as usize]);
-        value /= 100;
+/// Writes a number so that it ends in the middle, in groups of eight digits, and returns the place of its first digit that is
+/// not zero.
+fn put(digits: &mut Digits, mut value: u64) -> usize {
+    let mut at = DIGITS;
+    loop {
+        let group = eight((value % 100_000_000) as u32);
+        at -= 8;
+        digits[at..at + 8].copy_from_slice(&(group | u64::from_le_bytes([b'0'; 8])).to_le_bytes());
+        value /= 100_000_000;
+        if value == 0 {
+            return at + group.trailing_zeros() as usize / 8;
+        }
     }
-    if value > 0 || end - at < least {
-        at -= 1;
-        digits[at] = PAIRS[value as usize][1];
-    }
-    at
+}
+
+/// The eight digits of a number, one in each byte, the first in the lowest. Groups of four, two and one digit are divided all at
+/// once: the products with 10,486 and 103, shifted, are exact quotients by a hundred and by ten.
+fn eight(value: u32) -> u64 {
+    let fours = u64::from(value / 10_000) | u64::from(value % 10_000) << 32;
+    let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
+    let twos = hundreds | (fours - 100 * hundreds) << 16;
+    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
+    tens | (twos - 10 * tens) << 8
 }
 
 /// Appends an integer.
 pub fn push_integer(out: &mut Vec<u8>, value: u64) {
-    let mut digits: Digits = [0; 2 * DIGITS];
-    let at = put(&mut digits, DIGITS, (value, 1));
+    let mut digits: Digits = [b'0'; 2 * DIGITS];
+    let at = put(&mut digits, value).min(DIGITS - 1);
     append(out, &digits, at);
 }
 

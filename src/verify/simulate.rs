@@ -51,15 +51,16 @@ impl Watch<'_> {
             if going.is_none() {
                 self.limits.see_timed(&row);
             }
-            self.rest.see(&row);
+            self.rest.see(&row, going.is_none());
             // The axis is off the blade by the yaw: cuts are judged by the blade.
-            let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };
+            let mut blade = row;
+            blade.c_deg -= self.yaw_deg;
             self.table.see(&blade);
             self.block.see(Naming::in_air(&row), || row.sighting());
             self.events.see(&row, &mut self.told);
             if row.knife || strokes.are_open() {
                 // The row of the lift command still holds the pose at the end of the cut.
-                strokes.push(&blade.on_cloth(), going);
+                strokes.push(blade.on_cloth(), going);
             }
             if !row.knife && strokes.are_open() {
                 strokes.end();

@@ -208,7 +208,9 @@ impl<'a> Program<'a> {
         if steps.must_stand && !self.stands {
             self.dwell(SETTLE);
         }
-        self.say(&steps.text);
+        for line in steps.text.lines() {
+            self.line(line);
+        }
         self.planner.steps(&steps.steps);
         self.stands &= !steps.moves_z;
         if dwell > 0.0 {
@@ -354,10 +356,15 @@ impl<'a> Program<'a> {
     /// Writes lines of text.
     fn say(&mut self, text: &str) {
         for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
-            self.number();
-            self.text.extend_from_slice(line.as_bytes());
-            self.text.push(b'\n');
+            self.line(line);
         }
+    }
+
+    /// Writes a line.
+    fn line(&mut self, line: &str) {
+        self.number();
+        self.text.extend_from_slice(line.as_bytes());
+        self.text.push(b'\n');
     }
 
     /// Writes the number of the line, if the controller wants line numbers.
@@ -396,14 +403,17 @@ impl<'a> Program<'a> {
     /// marginally before its position would turn it all the way round.
     fn axes_of_cut(&mut self, to: Pose) {
         self.place(to);
-        let gcode = &self.job.profile.gcode;
-        let [was, shown] = [self.pose, to].map(|pose| self.job.profile.c.shown_deg(pose.c.0));
-        let rests =
-            (self.within(shown) - self.within(was)).abs() < 0.5 * gcode.step() && (shown - was).abs() < 0.5 * TURN_DEG;
-        if !(gcode.wrapped && rests) {
+        if !(self.job.profile.gcode.wrapped && self.rests(to)) {
             self.turn(to);
         }
         self.pose = to;
+    }
+
+    /// True if the word of a wrapped axis would be the same as before.
+    fn rests(&self, to: Pose) -> bool {
+        let [was, shown] = [self.pose, to].map(|pose| self.job.profile.c.shown_deg(pose.c.0));
+        let step = self.job.profile.gcode.step();
+        (self.within(shown) - self.within(was)).abs() < 0.5 * step && (shown - was).abs() < 0.5 * TURN_DEG
     }
 
     fn place(&mut self, to: Pose) {
@@ -415,8 +425,8 @@ impl<'a> Program<'a> {
         let profile = &self.job.profile;
         let keys = &profile.gcode;
         self.text.extend_from_slice(&[b' ', keys.letter.byte()]);
-        let [was, shown] = [self.pose, to].map(|pose| profile.c.shown_deg(pose.c.0));
-        let shown = if keys.wrapped { self.wrapped(shown, was) } else { shown };
+        let shown = profile.c.shown_deg(to.c.0);
+        let shown = if keys.wrapped { self.wrapped(shown, profile.c.shown_deg(self.pose.c.0)) } else { shown };
         push_fixed(&mut self.text, shown, keys.decimals);
     }
 

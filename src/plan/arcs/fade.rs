@@ -83,8 +83,9 @@ impl Fade {
         let longest = self.length * (8.0 * BEND_SHARE * self.permitted / (FADE_BEND * self.lead.abs())).sqrt();
         let mut count = (fading / longest).ceil().min((fading / least).floor()).max(1.0) as usize;
         let mut parts = loop {
-            let (parts, askew) = self.divided(beside, fading, count);
-            if askew <= BEND_SHARE * self.permitted || fading / (2 * count) as f64 <= least {
+            let is_finest = fading / (2 * count) as f64 <= least;
+            let most = if is_finest { f64::INFINITY } else { BEND_SHARE * self.permitted };
+            if let Some(parts) = self.divided(beside, fading, count, most) {
                 break parts;
             }
             count *= 2;
@@ -95,21 +96,18 @@ impl Fade {
         parts
     }
 
-    /// The first `fading` mm of an arc in equal steps, and the maximum direction error of the tip on them, rad.
-    fn divided(&self, beside: Beside, fading: f64, count: usize) -> (Vec<FadeStep>, f64) {
+    /// The first `fading` mm of an arc in equal steps; `None` if the direction error of the tip exceeds `most` rad on one of them.
+    fn divided(&self, beside: Beside, fading: f64, count: usize, most: f64) -> Option<Vec<FadeStep>> {
         let arc = beside.arc;
-        let mut worst = 0.0_f64;
         let mut before = self.end(beside, 0.0);
         let part = |i: usize| {
             let to = fading * i as f64 / count as f64;
             let end = self.end(beside, to);
             let (turn, askew) = self.arc([before, end], arc.curvature * fading / count as f64);
-            worst = worst.max(askew);
             before = end;
-            FadeStep { to, c: end.pose.c.0, turn }
+            if askew > most { None } else { Some(FadeStep { to, c: end.pose.c.0, turn }) }
         };
-        let parts = (1..=count).map(part).collect();
-        (parts, worst)
+        (1..=count).map(part).collect()
     }
 
     fn end(&self, beside: Beside, s: f64) -> End {

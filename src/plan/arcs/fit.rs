@@ -55,24 +55,35 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// The arc that leaves a point in a direction and passes through another point. `None` when the points coincide or the arc
-    /// would turn by more than [`SWEEP_MAX`].
+    /// The arc that leaves a point in a direction and passes through another point, not yet [`measured`](Self::measured). `None`
+    /// when the points coincide or the arc would turn by more than [`SWEEP_MAX`].
     fn through(from: Point, along: Vector, to: Point) -> Option<Self> {
         let way = to - from;
         let chord = way.norm();
         if chord < LENGTH_EPSILON {
             return None;
         }
-        let half = angle::turn(along, way);
-        if 2.0 * half.abs() > SWEEP_MAX {
+        // The chord is 2 R sin(half); the cross product of the two vectors is chord sin(half).
+        let aside = cross(along, way);
+        let half = || angle::turn(along, way).abs();
+        // The angle itself is needed only near the limits: below 45 degrees the arc turns by less than `SWEEP_MAX`, and an
+        // angle is greater than its sine.
+        if aside.abs() >= along.dot(&way) && 2.0 * half() > SWEEP_MAX {
             return None;
         }
-        if chord * half.abs() / 4.0 < LINE_EPSILON {
+        if aside.abs() < 8.0 * LINE_EPSILON && chord * half() / 4.0 < LINE_EPSILON {
             return Some(Self { from, along: way / chord, length: chord, curvature: 0.0, chord: 0, stops: false });
         }
-        // The chord is 2 R sin(half); the cross product of the two vectors is chord sin(half).
-        let curvature = 2.0 * cross(along, way) / (chord * chord);
-        Some(Self { from, along, length: 2.0 * half / curvature, curvature, chord: 0, stops: false })
+        let curvature = 2.0 * aside / (chord * chord);
+        Some(Self { from, along, length: f64::NAN, curvature, chord: 0, stops: false })
+    }
+
+    /// The arc with its length, which ends at `to`.
+    fn measured(self, to: Point) -> Self {
+        if self.curvature == 0.0 {
+            return self;
+        }
+        Self { length: 2.0 * angle::turn(self.along, to - self.from) / self.curvature, ..self }
     }
 
     /// Unit vector along it at its end point `to`: the direction at its start, mirrored at the chord.
@@ -237,11 +248,16 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
     // 4). Vertices of a curve get no shoulder.
     let shoulder = |chord: usize, vertex: usize| {
         let turn = band.turns[vertex].abs();
+        if turn <= TURN_EPSILON {
+            return None;
+        }
+        let is_bend = band.is_bend(chord, vertex);
+        if !is_bend && !ends.spares {
+            return None;
+        }
         let way = ROUNDING_SHARE * band.tolerance_at(vertex) / (turn / 4.0).tan();
         let longest = SHOULDER_SHARE * (band.stations[chord + 1] - band.stations[chord]);
-        if turn <= TURN_EPSILON {
-            None
-        } else if way < longest && band.is_bend(chord, vertex) {
+        if is_bend && way < longest {
             Some((way, Kind::Shoulder))
         } else {
             ends.spares.then_some((way.min(longest), Kind::Spare))
@@ -284,7 +300,7 @@ fn biarc(band: &ToleranceBand, from: &Node, to: &Node) -> Option<Found> {
         && cross(end, t1).abs() + cross(t0, one.along).abs() < SAME_EPSILON
     {
         let arcs = [Some(Arc { chord: to.chord, stops: to.stops, ..one }), None];
-        return stays(band, &arcs, (to.at, end), [from, to]).then_some(arcs);
+        return stays(band, &arcs, (to.at, end), [from, to]).then(|| arcs.map(|arc| Some(arc?.measured(to.at))));
     }
     let ahead = way.dot(&(t0 + t1));
     let open = 2.0 * (1.0 - dot);
@@ -300,7 +316,8 @@ fn biarc(band: &ToleranceBand, from: &Node, to: &Node) -> Option<Found> {
     let station = f64::midpoint(from.station, to.station);
     let chord = band.chord_at(station);
     let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, stops: to.stops, ..second })];
-    stays(band, &arcs, (middle, meet), [from, to]).then_some(arcs)
+    let ends = [middle, to.at];
+    stays(band, &arcs, (middle, meet), [from, to]).then(|| [0, 1].map(|k| Some(arcs[k]?.measured(ends[k]))))
 }
 
 /// The direction at the end of an arc with chord `way`: the direction `along` at its other end, mirrored at the chord.

@@ -77,12 +77,12 @@ pub(super) fn path(stroke: &Stroke, tolerance: f64, interpolation: &Interpolatio
         let feed = feeds.fold(f64::INFINITY, f64::min);
         beside = arc.chord + usize::from(arc.stops);
         tangent += angle::turn(Rotation(tangent).unit(), arc.along);
-        let mut from = 0.0;
+        let (mut from, mut start) = (0.0, arc.at(0.0));
         for part in fade.parts(Beside { arc, tangent, done }, FADING_MIN) {
-            let (ends, along, length) = ([arc.at(from), arc.at(part.to)], arc.along_at(from), part.to - from);
+            let (ends, along, length) = ([start, arc.at(part.to)], arc.along_at(from), part.to - from);
             let turn = arc.curvature * length;
             pieces.push(pose(ends[1], part.c), Tip { ends, along, turn, more: part.turn - turn, length, feed });
-            from = part.to;
+            (from, start) = (part.to, ends[1]);
         }
         tangent += arc.turn();
         done += arc.length;

@@ -70,7 +70,12 @@ impl<'a> Rest<'a> {
         }
     }
 
-    pub(in crate::verify) fn see(&mut self, row: &Row) {
+    /// Processes a row, with or without a time.
+    pub(in crate::verify) fn see(&mut self, row: &Row, is_timed: bool) {
+        if !is_timed && self.before.as_ref().is_some_and(|before| before.drill == row.drill) {
+            // Without a time only the holes count.
+            return;
+        }
         let Some(before) = self.before.replace(*row) else {
             self.start.see(distance(row, self.home), || row.sighting());
             if row.knife {

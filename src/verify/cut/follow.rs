@@ -138,6 +138,7 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 
 impl Chord {
     /// Foot of a point on the chord; beyond an end of its line, on the straight extension.
+    #[inline]
     pub(in crate::verify) fn foot(&self, line: &Line, point: Point) -> Foot {
         let (chord, last) = (self.index, line.chords());
         if !line.ring && (chord == 0 || chord + 1 == last) {

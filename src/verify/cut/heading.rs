@@ -3,6 +3,7 @@
 //! In the tangent mode the blade lies along the tip's path; after a plunge as a chord it fades from chord to tangent over the
 //! next blade width, by the smoothstep polynomial of degree 7.
 
+use std::cell::OnceCell;
 use std::f64::consts::PI;
 
 use super::follow::Foot;
@@ -76,10 +77,10 @@ impl Moving<'_> {
         let last = rows.len() - 1;
         let [least, greatest] = self.lead;
         let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= self.way_min;
-        let stations = polyline::stations(tips);
         let (mut before, mut behind) = (0, 0);
-        let mut lead = None;
+        let (mut lead, mut way, stations) = (None, 0.0, OnceCell::new());
         for i in 0..=last {
+            way += (tips[i] - tips[i.saturating_sub(1)]).norm();
             let along = if let Some(&way) = self.ways.get(i) {
                 // Any length will do: only the direction matters.
                 way.try_normalize(0.0).unwrap_or_default()
@@ -102,7 +103,6 @@ impl Moving<'_> {
             }
             let ahead = |along: Vector| angle::turn(self.blades[i], along);
             let lead = *lead.get_or_insert_with(|| ahead(along).clamp(least, greatest));
-            let way = stations[i];
             let (aside, forth) = (cross(self.blades[i], along).abs(), self.blades[i].dot(&along));
             if way >= self.fade && aside < heading.value().to_radians() * (1.0 - SURE_EPSILON) * forth {
                 // An angle is less than its tangent: this one is not the worst, so it need not be computed.
@@ -137,13 +137,14 @@ impl Moving<'_> {
 
     /// Direction of the path around a row of a move that is too short to show a direction by itself; `None` for longer moves
     /// and when directions are not known exactly.
-    fn around(&self, i: usize, stations: &[f64]) -> Option<Vector> {
-        let last = stations.len() - 1;
+    fn around(&self, i: usize, stations: &OnceCell<Vec<f64>>) -> Option<Vector> {
+        let last = self.tips.len() - 1;
         // The end of a move and the start of the next are two rows at the same place.
-        let step = (stations[i] - stations[i.saturating_sub(1)]).max(stations[(i + 1).min(last)] - stations[i]);
-        if self.ways.is_empty() || step >= self.way_min {
+        let is_long = |k: usize| (self.tips[k] - self.tips[i]).norm() >= self.way_min;
+        if self.ways.is_empty() || is_long(i.saturating_sub(1)) || is_long((i + 1).min(last)) {
             return None;
         }
+        let stations = stations.get_or_init(|| polyline::stations(self.tips));
         let at = |station: f64| {
             let next = stations.partition_point(|&s| s < station).clamp(1, last);
             let (low, high) = (stations[next - 1], stations[next]);

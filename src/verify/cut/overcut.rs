@@ -106,21 +106,26 @@ impl<'a> Overcut<'a> {
         self.inside.distance_to_edges(place, reach)
     }
 
-    /// Judges the cuts of a stroke beyond the ends of its line.
-    pub(in crate::verify) fn see(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
+    /// Judges the cuts of a stroke beyond the ends of its line, at the places `outer`, each with its distance, mm.
+    pub(in crate::verify) fn see(
+        &self,
+        stroke: &Ends,
+        outer: &[(usize, f64)],
+        seen: &impl Fn(usize) -> Sighting,
+        worsts: &mut Worsts,
+    ) {
         let Worsts { overcuts, declared: undeclared, .. } = worsts;
         let Ends { cut, trial, .. } = *stroke;
         let mut ends = [[(0.0, 0); 2]; 2];
         self.see_aside(stroke, seen, overcuts);
         let Lines { reference, grid } = stroke.lines;
         let mut vicinity = Vicinity::new(reference, grid, self.tolerance);
-        for (i, &point) in cut.points.iter().enumerate() {
-            let beyond = trial.beyond(cut, i);
+        for &(i, beyond) in outer {
             if beyond <= self.rounding || trial.over.is_some_and(|over| over.spans(i)) {
                 continue;
             }
             let is_cut_anyway = !vicinity.is_away(&cut.points[i..]);
-            let depths = if is_cut_anyway { [0.0; 2] } else { self.depths(point, beyond, stroke) };
+            let depths = if is_cut_anyway { [0.0; 2] } else { self.depths(cut.points[i], beyond, stroke) };
             if depths == [0.0; 2] {
                 overcuts.waste.see(beyond, || seen(i));
             }

@@ -9,13 +9,17 @@ use crate::verify::reference::line::Line;
 
 /// Distance at which the tip's path passes the vertices between the stations of places `i - 1` and `i`, mm. In a bend it may
 /// pass a vertex slightly before or after these places; neighbouring places are checked where the distance exceeds `allowed`.
+#[inline]
 pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize, allowed: f64) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let chord = feet[i].chord;
-    if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
-        // Between two places on one chord of the same lap there is no vertex.
-        return 0.0;
-    }
+    // Between two places on one chord of the same lap there is no vertex.
+    let is_none = feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord);
+    if is_none { 0.0 } else { between(line, cut, [a, b], i, allowed) }
+}
+
+/// Distance at which the tip's path passes the vertices between two stations, those of places `i - 1` and `i`, mm.
+fn between(line: &Line, cut: &Cut, [a, b]: [f64; 2], i: usize, allowed: f64) -> f64 {
     let points = &cut.points;
     let (low, high) = (a.min(b), a.max(b));
     let sagitta = |k: usize| match cut.sagitta {

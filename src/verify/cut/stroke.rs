@@ -24,6 +24,7 @@ use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::common::Common;
 use crate::verify::reference::ground::Ground;
 use crate::verify::reference::held::Held;
+use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 use crate::verify::rules;
 
@@ -233,11 +234,14 @@ impl<'a> Judge<'a> {
             self.check_lifts(cut, best, &seen, worsts);
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
-        self.check_ends(cut, best, &seen, &mut worsts.stray);
+        let outer = best.outer(cut);
+        self.check_ends((cut, best), &outer, &seen, &mut worsts.stray);
         self.check_veer(cut, best, &seen, &mut worsts.stray);
         self.check_overlaps(cut, best, &seen, worsts);
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
-        self.check_overcut(cut, best, &seen, worsts);
+        if !best.laps {
+            self.overcut.see(&self.ends(cut, best), &outer, &seen, worsts);
+        }
         self.check_body(traced, best, worsts);
         self.find(traced, best);
         if stroke.goings().is_empty() {
@@ -363,20 +367,21 @@ impl<'a> Judge<'a> {
         if excess > self.rounding { excess } else { excess.min(0.0) }
     }
 
-    /// Beyond its stretch of the line a stroke may cut overlaps only.
-    fn check_ends(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
+    /// Beyond its stretch of the line a stroke may cut overlaps only; `outer` are the places there.
+    fn check_ends(
+        &self,
+        (cut, trial): (&Cut, &Trial),
+        outer: &[(usize, f64)],
+        seen: &impl Fn(usize) -> Sighting,
+        stray: &mut Worst,
+    ) {
         if trial.laps || cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             return;
         }
         let allowed = self.overlap + self.reference.tolerance;
-        for i in 0..cut.points.len() {
-            let beyond = trial.beyond(cut, i);
-            if beyond > allowed {
-                let end = self.reference.lines[trial.line].place(trial.feet[i].station);
-                stray.see(self.excess(beyond, allowed.max(self.reference.across(end))), || seen(i));
-            } else {
-                stray.see(self.excess(beyond, allowed), || seen(i));
-            }
+        for &(i, beyond) in outer.iter().filter(|(_, beyond)| *beyond > allowed) {
+            let end = self.reference.lines[trial.line].place(trial.feet[i].station);
+            stray.see(self.excess(beyond, allowed.max(self.reference.across(end))), || seen(i));
         }
     }
 
@@ -404,20 +409,20 @@ impl<'a> Judge<'a> {
         let Traced { stroke, ways, cut, best, .. } = traced;
         let rows = stroke.rows();
         let slack = self.reference.tolerance + CAP_ASIDE;
+        let of_line = best.as_ref().map(|trial| (trial, &self.reference.lines[trial.line], trial.sign(cut)));
+        let feed_of_knife = self.knife.feed_mm_s.unwrap_or(f64::INFINITY);
+        let only = of_line.map_or(Some(feed_of_knife), |(_, line, sign)| line.only_cap(sign));
         let cap = |i: usize| {
-            best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
-                let line = &self.reference.lines[trial.line];
-                if let Some(cap) = line.only_cap(trial.sign(cut)) {
-                    return cap;
-                }
+            let by_place = |(trial, line, sign): (&Trial, &Line, f64)| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
                 let (low, high) = (a.min(b), a.max(b));
                 // F holds over the whole step, which may be long: each part of it has its own cap.
                 let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
                 let part = |k: usize| low + (high - low) * (k as f64 / parts);
                 let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
-                caps.map(|ends| line.cap(ends, trial.sign(cut), f64::max)).fold(f64::INFINITY, f64::min)
-            })
+                caps.map(|ends| line.cap(ends, sign, f64::max)).fold(f64::INFINITY, f64::min)
+            };
+            only.or_else(|| of_line.map(by_place)).unwrap_or(feed_of_knife)
         };
         let rounding = 4.0 * self.rounding / self.period;
         for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
@@ -471,14 +476,6 @@ impl<'a> Judge<'a> {
             }
         }
         crawl.see(least.0.recip(), || rows[least.1].sighting());
-    }
-
-    /// Judges the cuts of the blade beyond the ends of its line.
-    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
-        if trial.laps {
-            return;
-        }
-        self.overcut.see(&self.ends(cut, trial), seen, worsts);
     }
 
     /// A stroke on its line.

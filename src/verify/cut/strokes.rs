@@ -28,10 +28,12 @@ impl Strokes {
     }
 
     /// Adds a row to the open stroke.
-    pub(in crate::verify) fn push(&mut self, row: &Row, going: Option<Going>) {
+    pub(in crate::verify) fn push(&mut self, row: Row, going: Option<Going>) {
         let track = Arc::get_mut(&mut self.track).expect("no stroke is given out before all are gathered");
-        track.rows.push(*row);
-        track.goings.extend(going);
+        track.rows.push(row);
+        if let Some(going) = going {
+            track.goings.push(going);
+        }
     }
 
     /// True if a stroke is open.

@@ -551,6 +551,12 @@ impl Trial {
         self.feet[i].beyond.max((cut.points[i] - cut.points[edge]).norm() + self.feet[edge].beyond)
     }
 
+    /// Places beyond an end of the line or beyond the held places, each with its distance, mm.
+    pub(super) fn outer(&self, cut: &Cut) -> Vec<(usize, f64)> {
+        let places = (0..cut.points.len()).map(|i| (i, self.beyond(cut, i)));
+        places.filter(|(_, beyond)| *beyond > 0.0).collect()
+    }
+
     /// End of the stroke at which a place is.
     pub(super) fn end_at(&self, place: usize) -> Which {
         if place <= *self.held.start() { Which::Start } else { Which::End }

@@ -47,10 +47,7 @@ impl<'a> Vicinity<'a> {
         let about = self.known.grown(self.slack);
         for run in self.grid.about(about) {
             let line = &self.reference.lines[run.line()];
-            let passes = |&chord: &usize| {
-                let [from, to] = line.ends(chord);
-                Extent::between(from, to).meets(&about)
-            };
+            let passes = |&chord: &usize| about.meets_box_of(line.ends(chord));
             self.chords.extend(run.chords().filter(passes).map(|chord| (line, chord)));
         }
     }

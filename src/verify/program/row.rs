@@ -41,8 +41,10 @@ pub(in crate::verify) struct Row {
 
 impl Row {
     /// Row with its place in cloth coordinates instead of table coordinates.
-    pub(in crate::verify) fn on_cloth(&self) -> Self {
-        Self { centre: self.centre + self.moved_on(), station: 0, ..*self }
+    pub(in crate::verify) fn on_cloth(mut self) -> Self {
+        self.centre += self.moved_on();
+        self.station = 0;
+        self
     }
 
     /// Advance of the cloth so far, mm.

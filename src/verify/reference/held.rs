@@ -8,6 +8,7 @@
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -37,7 +38,7 @@ struct Contours<'a> {
     extents: Boxes,
     /// Areas of the contours, mm2.
     areas: Vec<f64>,
-    /// Interiors of the closed contours.
+    /// Interiors of the closed contours in which something may lie.
     regions: Regions<'a>,
     /// Distance within which edges of two pieces are one edge, mm.
     band: f64,
@@ -47,7 +48,7 @@ struct Contours<'a> {
 
 /// Contents of the closed contours of a marker.
 pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Held> {
-    let contours = Contours::new(marker, reference.band);
+    let mut contours = Contours::new(marker, reference.band);
     let ranks: Vec<&Range<u32>> = reference.of_pieces.iter().flat_map(|piece| &piece.contours).collect();
     let of_slits = |piece: usize| {
         let slits = &reference.lines[reference.of_pieces[piece].slits.clone()];
@@ -58,6 +59,7 @@ pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Hel
         marker.pieces.iter().enumerate().flat_map(|(i, piece)| piece.drills.iter().map(move |drill| (drill, i)));
     let holes = drills.zip(&reference.holes).map(|((drill, piece), &rank)| (rank as u32, drill.at, piece));
     let marks: Vec<(u32, Point, usize)> = slits.chain(holes).collect();
+    contours.look_into(marks.iter().map(|(_, _, piece)| reference.owners[*piece]));
     let of_mark = |&(rank, at, piece): &(u32, Point, usize)| {
         let outline = contours.smallest_at(at, |other| contours.all[other].0 == reference.owners[piece])?;
         Some(Held { inner: rank..rank + 1, outline: ranks[outline].clone() })
@@ -81,13 +83,34 @@ impl<'a> Contours<'a> {
             (Extent::of(&points), ring::area(&points).abs())
         });
         let (extents, areas): (Vec<Extent>, Vec<f64>) = measured.unzip();
-        let closed = (0..all.len() as u32).filter(|&i| all[i as usize].1.closed);
-        let regions = Regions::new(closed, |i| vec![marker.list.points(all[i as usize].1.range)]);
         let asked = marker.pieces.iter().scan(0, |asked, piece| {
             *asked += usize::from(!piece.events.is_empty());
             Some(*asked)
         });
-        Self { marker, extents: Boxes::new(extents), areas, regions, band, asked: asked.collect(), all }
+        let (extents, regions) = (Boxes::new(extents), Regions::default());
+        Self { marker, extents, areas, regions, band, asked: asked.collect(), all }
+    }
+
+    /// Indexes the interiors of the closed contours that may hold another one, and of those of some pieces.
+    fn look_into(&mut self, pieces: impl Iterator<Item = usize>) {
+        let mut may_hold = vec![false; self.all.len()];
+        for holder in (0..self.all.len()).flat_map(|contour| self.holders(contour)) {
+            may_hold[holder] = true;
+        }
+        let pieces: BTreeSet<usize> = pieces.collect();
+        let is_meant = |&i: &u32| {
+            let (piece, contour) = self.all[i as usize];
+            contour.closed && (may_hold[i as usize] || pieces.contains(&piece))
+        };
+        let points = |i: u32| vec![self.marker.list.points(self.all[i as usize].1.range)];
+        self.regions = Regions::new((0..self.all.len() as u32).filter(is_meant), points);
+    }
+
+    /// Closed contours that may hold another, by area and box.
+    fn holders(&self, contour: usize) -> impl Iterator<Item = usize> + '_ {
+        let extent = self.extents.all()[contour];
+        let near = self.extents.at(extent.min + (extent.max - extent.min) / 2.0);
+        near.filter(move |&other| self.all[other].1.closed && self.may_hold(other, contour))
     }
 
     /// Smallest of the accepted closed contours in which a place lies.
@@ -101,10 +124,7 @@ impl<'a> Contours<'a> {
     fn around(&self, contour: usize) -> Option<usize> {
         let (piece, inner) = self.all[contour];
         let points = self.marker.list.points(inner.range);
-        let extent = self.extents.all()[contour];
-        let near = self.extents.at(extent.min + (extent.max - extent.min) / 2.0);
-        let may_hold = |other: &usize| self.all[*other].1.closed && self.may_hold(*other, contour);
-        let mut around: Vec<Around> = near.filter(may_hold).map(|other| Around::new(self, other)).collect();
+        let mut around: Vec<Around> = self.holders(contour).map(|other| Around::new(self, other)).collect();
         for &point in points.iter() {
             if around.is_empty() {
                 return None; // as of nearly all, at once

@@ -85,20 +85,20 @@ pub(in crate::verify) struct Chord {
     length: f64,
     /// Unit vector along the chord.
     pub(in crate::verify) along: Vector,
-    /// Vector from the middle of the chord to the edge of the tolerance band's core there.
-    sagitta: Vector,
+    /// Distance from the middle of the chord to the edge of the tolerance band's core there, mm, positive to the left.
+    height: f64,
 }
 
 impl Chord {
     /// Start of the chord, crest of the curve that it approximates, and end of the chord.
     pub(in crate::verify) fn band(&self) -> [Point; 3] {
         let way = self.along * self.length;
-        [self.from, self.from + way / 2.0 + self.sagitta, self.from + way]
+        [self.from, self.from + way / 2.0 + left(self.along) * self.height, self.from + way]
     }
 
     /// Sagitta of the curve that the chord approximates, mm.
     pub(in crate::verify) fn sagitta(&self) -> f64 {
-        self.sagitta.norm()
+        self.height.abs()
     }
 
     /// Station and length of the chord, mm.
@@ -108,6 +108,7 @@ impl Chord {
 
     /// Distance of a point from the core of the tolerance band at the chord, mm, and the station of the foot. The core at a
     /// place of the chord is the segment from the chord to its bulge there.
+    #[inline]
     pub(in crate::verify) fn deviation(&self, point: Point) -> (f64, f64) {
         let from = point - self.from;
         if self.length == 0.0 {
@@ -115,18 +116,13 @@ impl Chord {
         }
         let way = from.dot(&self.along).clamp(0.0, self.length);
         let away = from - self.along * way;
-        if self.sagitta == Vector::zeros() {
+        if self.height == 0.0 {
             return (away.norm(), self.start + way);
         }
-        let share = way / self.length;
-        let reach = self.sagitta * (4.0 * share * (1.0 - share));
-        let height = reach.norm();
-        if height == 0.0 {
-            return (away.norm(), self.start + way);
-        }
-        let outward = reach / height;
-        let used = away.dot(&outward).clamp(0.0, height);
-        ((away - outward * used).norm(), self.start + way)
+        let (share, left) = (way / self.length, left(self.along));
+        let height = self.height * (4.0 * share * (1.0 - share));
+        let used = away.dot(&left).clamp(height.min(0.0), height.max(0.0));
+        ((away - left * used).norm(), self.start + way)
     }
 }
 
@@ -200,7 +196,7 @@ impl<'a> Line<'a> {
         let [from, to] = self.ends(index);
         let Vertex { station: start, sagitta, .. } = self.path[index];
         let (way, length) = (to - from, self.length_of(index));
-        Chord { index, from, start, length, along: way / length, sagitta: left(way) * f64::from(sagitta) }
+        Chord { index, from, start, length, along: way / length, height: length * f64::from(sagitta) }
     }
 
     /// Both ends of a chord.
@@ -226,7 +222,7 @@ impl<'a> Line<'a> {
         let [from, to] = self.ends(chord);
         let reach = reach + f64::from(self.path[chord].sagitta).abs() * self.length_of(chord);
         let (from, to) = (from - point, to - point);
-        let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
+        let is_between = |a: f64, b: f64| (a <= reach || b <= reach) && (a >= -reach || b >= -reach);
         is_between(from.x, to.x) && is_between(from.y, to.y)
     }
 

@@ -50,6 +50,8 @@ pub(in crate::verify) struct Outline<'a> {
     closed: bool,
     /// True for the edge of a part.
     bounds: bool,
+    /// True if codes of the file may forbid overlaps at its ends.
+    is_bare: bool,
     /// Points between the segments, from the start of the contour, if the marker keeps them adjacent; otherwise empty.
     points: &'a [Point],
     /// Index of the first segment among those of the marker.
@@ -93,7 +95,8 @@ impl<'a> Outline<'a> {
         let before = |i: usize| &segments[(i + count - 1) % count];
         let way = |segment: &Segment| segment.to - segment.from;
         let turns = (0..count).map(|i| angle::turn(way(before(i)), way(&segments[i]))).collect();
-        Self { segments, turns, closed, bounds: closed, points, first: 0, before: 0.0, stations: Vec::new() }
+        let is_bare = segments.iter().any(|segment| segment.joint.full_advance || segment.joint.no_overcut);
+        Self { segments, turns, closed, bounds: closed, is_bare, points, first: 0, before: 0.0, stations: Vec::new() }
     }
 
     /// Lines of the contour, which end at its corners.
@@ -154,7 +157,7 @@ impl<'a> Outline<'a> {
             round: self.closed.then(|| self.stations[self.segments.len()]),
             bounds: self.bounds,
             is_edge: false,
-            is_bare: self.segments.iter().any(|segment| segment.joint.full_advance || segment.joint.no_overcut),
+            is_bare: self.is_bare,
         };
         Line::new(owner, cut, self.points([from, to]), path, caps, ring)
     }

@@ -8,7 +8,7 @@ mod arc;
 mod texts;
 
 use std::collections::VecDeque;
-use std::io::{BufRead, Read as _};
+use std::io::{self, BufRead, ErrorKind};
 use std::rc::Rc;
 
 use self::arc::Arc;
@@ -29,7 +29,7 @@ use crate::verify::rules;
 /// Maximum length of a first line in a message, characters.
 const FIRST_CHARS: usize = 60;
 /// Longest line that a controller reads, bytes including its end: RS274/NGC, section 3.3.
-const LINE_MAX: u64 = 256;
+const LINE_MAX: usize = 256;
 /// Longest step, mm, and greatest turn of C in one step, degrees.
 const STEP_MM: f64 = 8.0;
 const STEP_DEG: f64 = 5.0;
@@ -97,7 +97,9 @@ pub(in crate::verify) struct Places<'a> {
     lines: u64,
     room: Vec<u8>,
     now: Row,
-    queue: VecDeque<(Row, Going)>,
+    /// Rows of the last lines, and the number of those that were given out.
+    rows: Vec<(Row, Going)>,
+    given: usize,
     last: Going,
     /// Steps since the knife went down.
     in_stroke: f64,
@@ -140,7 +142,8 @@ impl<'a> Places<'a> {
             lines: 0,
             room: Vec::new(),
             now,
-            queue: VecDeque::from([(now, Going::default())]),
+            rows: vec![(now, Going::default())],
+            given: 0,
             last: Going::default(),
             in_stroke: 0.0,
             bad: None,
@@ -155,14 +158,18 @@ impl<'a> Places<'a> {
 
     /// Next place and the motion of the axes there.
     pub(in crate::verify) fn next(&mut self) -> Option<(Row, Going)> {
-        while self.queue.is_empty() && !self.ended {
+        while self.given == self.rows.len() && !self.ended {
+            self.rows.clear();
+            self.given = 0;
             if let Err(why) = self.read() {
                 self.ended = true;
                 let line = self.lines;
                 self.bad = Some((Row { line, ..self.now }.sighting(), format!("line {line} {why}")));
             }
         }
-        self.queue.pop_front()
+        let next = self.rows.get(self.given).copied();
+        self.given += usize::from(next.is_some());
+        next
     }
 
     /// True if a line could not be read, so that nothing can be said about the program's effect.
@@ -184,7 +191,7 @@ impl<'a> Places<'a> {
     fn read(&mut self) -> Result<(), String> {
         let mut line = std::mem::take(&mut self.room);
         line.clear();
-        let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).map_err(|_| "cannot be read")?;
+        let read = read_line(&mut *self.input, &mut line).map_err(|_| "cannot be read")?;
         self.lines += 1;
         if read == 0 {
             self.ended = true;
@@ -195,17 +202,13 @@ impl<'a> Places<'a> {
             };
         }
         if line.pop() != Some(b'\n') {
-            let is_long = read as u64 == LINE_MAX;
+            let is_long = read == LINE_MAX;
             return Err(if is_long { "is too long" } else { "has no end: the file is cut short" }.to_owned());
         }
         if line.last() == Some(&b'\r') {
             line.pop();
         }
-        let read = if memchr::memchr(0, &line).is_some() {
-            Err("holds a NUL, behind which no controller reads on".to_owned())
-        } else {
-            self.line(&line)
-        };
+        let read = self.line(&line);
         self.room = line;
         read
     }
@@ -214,6 +217,9 @@ impl<'a> Places<'a> {
     fn line(&mut self, line: &[u8]) -> Result<(), String> {
         let usual = unnumbered(line);
         let Err(why) = self.spelled(usual, usual) else { return Ok(()) };
+        if line.contains(&0) {
+            return Err("holds a NUL, behind which no controller reads on".to_owned());
+        }
         match plain(line) {
             Some(plain) if plain.is_empty() => {
                 self.name(usual);
@@ -261,7 +267,7 @@ impl<'a> Places<'a> {
         }
         // A comment ends at its first closing bracket; anything behind that is executed.
         let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
-        if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
+        if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')' | 0))) {
             if is_active(comment) {
                 return Err(format!("is {}, which is obeyed though it looks like a comment", quoted(line)));
             }
@@ -382,7 +388,7 @@ impl<'a> Places<'a> {
     fn push(&mut self, row: Row, going: Going) {
         self.now.tick += 1;
         self.now.t = self.now.tick as f64;
-        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
+        self.rows.push((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
     }
 
     /// Executes a move: adds all of its places.
@@ -518,6 +524,24 @@ impl<'a> Places<'a> {
     fn near_rest(&self, c_deg: f64) -> f64 {
         let [.., rest] = self.profile.park.unwrap_or(self.profile.home);
         c_deg - ((c_deg - rest) / TURN_DEG).round() * TURN_DEG
+    }
+}
+
+/// Appends a line with its end to `line`, at most [`LINE_MAX`] bytes, and returns its length; 0 at the end of the input.
+fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> io::Result<usize> {
+    loop {
+        let buffer = match input.fill_buf() {
+            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+            buffer => buffer?,
+        };
+        let part = &buffer[..buffer.len().min(LINE_MAX - line.len())];
+        let end = memchr::memchr(b'\n', part);
+        let read = end.map_or(part.len(), |end| end + 1);
+        line.extend_from_slice(&part[..read]);
+        input.consume(read);
+        if end.is_some() || read == 0 {
+            return Ok(line.len());
+        }
     }
 }
 
