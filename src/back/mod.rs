@@ -17,8 +17,8 @@ mod svg;
 mod target;
 
 pub use target::{
-    ArcTarget, ArcWriter, BeginPage, Beside, Context, Emit, Estimate, Limit, Outcome, Output, PageWriter, Parts, Proof,
-    Spent, Target,
+    ArcTarget, ArcWriter, BeginPage, Beside, Choice, Chosen, Context, Emit, Estimate, Limit, Outcome, Output,
+    PageWriter, Parts, Proof, Spent, Target,
 };
 
 use crate::ir::Motion;

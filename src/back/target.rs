@@ -54,6 +54,14 @@ pub enum Emit {
 }
 
 impl Emit {
+    /// Choices of moves, of which one is written; none if the target leaves no choice.
+    pub(crate) fn choices(&self, job: &Job) -> Vec<Choice> {
+        match self {
+            Self::Arcs(target) => (target.choices)(job),
+            Self::Marker(_) | Self::Toolpath(_) | Self::Picture(_) | Self::Motion(_) | Self::Page(_) => Vec::new(),
+        }
+    }
+
     /// True if it is made from toolpaths.
     pub fn needs_toolpaths(&self) -> bool {
         match self {
@@ -117,6 +125,8 @@ pub(super) fn nothing(_: &Context) -> Vec<Diagnostic> {
 /// A target whose controller plans for itself.
 #[derive(Debug)]
 pub struct ArcTarget {
+    /// Choices of moves, of which the controller is given the fastest; the first one of equally fast ones. At least one.
+    pub choices: fn(&Job) -> Vec<Choice>,
     /// Paths that its controller accepts.
     pub interpolation: fn(&Job) -> Interpolation,
     /// Content that it cannot express; see [`Parts`].
@@ -125,6 +135,15 @@ pub struct ArcTarget {
     pub unfit: fn(&Unfit) -> Diagnostic,
     /// Starts a program.
     pub begin: for<'a> fn(&Context<'a>) -> Box<dyn ArcWriter + 'a>,
+}
+
+/// A choice of moves for a controller that plans for itself.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// Its name in a sentence.
+    pub name: String,
+    /// The job with such moves.
+    pub job: Job,
 }
 
 /// A program that takes toolpaths, each with its arcs, in order.
@@ -157,6 +176,20 @@ pub struct Estimate {
     pub moves: usize,
     /// Name of the planner whose time it is.
     pub planner: &'static str,
+    /// Number of arcs whose chords are coarser than permitted, because the decimals tell no finer ones.
+    pub coarse: usize,
+    /// Other choices of moves; `None` if the profile fixes them.
+    pub chosen: Option<Chosen>,
+}
+
+/// Moves that a program was given because its controller makes them fastest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// Name of the choice.
+    pub name: String,
+    /// Other choices with their durations, s, the fastest first; `None` if it cannot be cut with such moves, or only with
+    /// chords that the decimals do not tell.
+    pub others: Vec<(String, Option<f64>)>,
 }
 
 /// Duration of a program on a controller.

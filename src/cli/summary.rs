@@ -6,6 +6,7 @@ use super::options::counted;
 use super::{bites, edges};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
+use crate::machine::gcode::Planner;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
@@ -128,18 +129,26 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
 
 /// Time on a controller that plans for itself, what limits it, and keys whose change would save a relevant part of it.
 fn planned_there(controller: &Controller, line: &mut impl FnMut(&str, String)) {
-    let Controller { time_s, moves, planner, limits } = controller;
+    let Controller { time_s, moves, planner, chosen, others, limits } = controller;
     line("controller", format!("about {} by {planner}'s planner, {moves} arcs and lines", duration(*time_s)));
     let parts: Vec<(String, f64)> = limits.iter().map(|part| (part.limit.to_string(), part.time_s)).collect();
     let limited = shares(&parts, *time_s);
     if !limited.is_empty() {
         line("", limited);
     }
+    if let Some(chosen) = chosen {
+        line("", format!("{chosen}, the fastest of {}", others.len() + 1));
+        for (other, time) in others.iter().filter_map(|other| Some((&other.moves, other.time_s?))).take(1) {
+            line("", format!("{other}: {} s more", fixed(time - time_s, 1)));
+        }
+    }
     for part in limits.iter().filter(|part| part.time_s >= TELLING_SHARE * time_s) {
         let what = match part.limit {
-            Limit::LookAhead => "more of gcode.planner_blocks",
+            Limit::LookAhead if *planner == Planner::Grbl.title() => "more of gcode.planner_blocks",
             Limit::Late => "more of gcode.max_blocks_s",
-            Limit::Feed | Limit::Blocks | Limit::Speed(_) | Limit::Acceleration(_) | Limit::Rest => continue,
+            Limit::LookAhead | Limit::Feed | Limit::Blocks | Limit::Speed(_) | Limit::Acceleration(_) | Limit::Rest => {
+                continue;
+            }
         };
         let share = 100.0 * part.time_s / time_s;
         line("", format!("{what} would save about {} s, {} %", fixed(part.time_s, 1), fixed(share, 0)));

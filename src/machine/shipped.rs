@@ -40,6 +40,11 @@ pub const SHIPPED: &[Shipped] = &[
         about: "grbl-Mega-5X: straight moves in inverse time, rotary axis A, knife at Z",
         text: include_str!("shipped/mega5x.toml"),
     },
+    Shipped {
+        name: "reprap",
+        about: "RepRapFirmware 3.5: arcs or lines, whatever is faster, rotary axis A, knife at Z",
+        text: include_str!("shipped/reprap.toml"),
+    },
 ];
 
 /// Drawing of a trial, as a cut file: a square, a circle and a star of twelve strokes, on 220 x 80 mm.

@@ -14,6 +14,7 @@ mod product;
 mod program;
 mod refused;
 mod report;
+mod rivals;
 mod rounded;
 mod savings;
 mod sound;
@@ -32,7 +33,7 @@ pub use judge::{audited, both, figures, foreign, judge_program, report};
 pub use place::place;
 pub use product::{Medium, Product};
 pub use report::{
-    Axes, Common, Controller, Drawn, Estimated, Limited, Lines, Notches, Peak, Peaks, Program, Report, Sides,
+    Axes, Common, Controller, Drawn, Estimated, Limited, Lines, Notches, Other, Peak, Peaks, Program, Report, Sides,
 };
 pub use rounded::significant;
 pub use savings::Savings;
@@ -194,11 +195,12 @@ fn write(
     (beside, advance): (Option<&mut SpooledTempFile>, &Advance),
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
+    let choices: Vec<_> = products.iter().map(|product| product.target.emit.choices(context.job)).collect();
     let mut sinks: Vec<Sink> = Vec::new();
-    for (product, page) in products.iter_mut().zip(&mut pages.0) {
+    for ((product, page), choices) in products.iter_mut().zip(&mut pages.0).zip(&choices) {
         match page {
             Some(page) => sinks.push(Sink::of_page(&mut **page, &mut *product.out)),
-            None => sinks.extend(Sink::new(&product.target.emit, context, &mut *product.out)),
+            None => sinks.extend(Sink::new(&product.target.emit, context, choices, &mut *product.out)),
         }
     }
     if let Some(beside) = beside {
@@ -348,7 +350,9 @@ fn estimated_there(context: &Context) -> io::Result<Option<Controller>> {
     let mut unread = SpooledTempFile::new(SCRATCH_BYTES);
     let is_asked = context.job.origin.is_for_gcode();
     let arcs = TARGETS.iter().find(|target| is_asked && matches!(target.emit, Emit::Arcs(_)));
-    let Some(sink) = arcs.and_then(|target| Sink::new(&target.emit, context, &mut unread)) else { return Ok(None) };
+    let choices = arcs.map(|target| target.emit.choices(context.job)).unwrap_or_default();
+    let sink = arcs.and_then(|target| Sink::new(&target.emit, context, &choices, &mut unread));
+    let Some(sink) = sink else { return Ok(None) };
     let (mut refused, plan) = (Diagnostics::default(), Plan { motion: false, advance: &Advance::default() });
     let toolpaths = Toolpaths::new(context.marker, context.job);
     let written = program::write(toolpaths, &mut [sink], context, plan, &mut refused)?;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::advance::Advance;
 use super::product::Medium;
 use super::report::{Axes, Program, Sides};
+use super::rivals::{Rivals, count};
 use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
@@ -16,7 +17,7 @@ use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
 use crate::analysis::swing;
-use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, PageWriter, Parts};
+use crate::back::{Choice, Context, Emit, Estimate, Outcome, PageWriter, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::check;
@@ -38,18 +39,23 @@ pub(super) struct Sink<'a> {
 enum Form<'a> {
     Toolpath(&'static Parts<Toolpath>),
     Motion(&'static Parts<Motion>),
-    Arcs(&'static ArcTarget, Box<dyn ArcWriter + 'a>),
+    Arcs(Rivals<'a>),
     Page(&'a mut (dyn PageWriter + 'a)),
 }
 
 impl<'a> Sink<'a> {
-    /// Program of a target; `None` if the target needs no toolpaths.
-    pub(super) fn new(emit: &'static Emit, context: &Context<'a>, out: &'a mut dyn Medium) -> Option<Self> {
+    /// Program of a target, the fastest of its choices of moves; `None` if the target needs no toolpaths.
+    pub(super) fn new(
+        emit: &'static Emit,
+        context: &Context<'a>,
+        choices: &'a [Choice],
+        out: &'a mut dyn Medium,
+    ) -> Option<Self> {
         let form = match emit {
             Emit::Marker(_) | Emit::Page(_) => return None,
             Emit::Toolpath(parts) | Emit::Picture(parts) => Form::Toolpath(parts),
             Emit::Motion(parts) => Form::Motion(parts),
-            Emit::Arcs(target) => Form::Arcs(target, (target.begin)(context)),
+            Emit::Arcs(target) => Form::Arcs(Rivals::new(target, context, choices)),
         };
         Some(Self { form, out: BufWriter::new(out) })
     }
@@ -74,15 +80,16 @@ impl<'a> Sink<'a> {
         match self.form {
             Form::Toolpath(parts) => (parts.refusals)(context),
             Form::Motion(parts) => (parts.refusals)(context),
-            Form::Arcs(target, _) => (target.refusals)(context),
+            Form::Arcs(ref rivals) => (rivals.target.refusals)(context),
             Form::Page(_) => Vec::new(),
         }
     }
 
-    fn arc_target(&self) -> Option<&'static ArcTarget> {
-        match self.form {
-            Form::Arcs(target, _) => Some(target),
-            Form::Toolpath(_) | Form::Motion(_) | Form::Page(_) => None,
+    /// Paths that its controller accepts, for each choice of moves.
+    fn interpolations(&self) -> Vec<Interpolation> {
+        match &self.form {
+            Form::Arcs(rivals) => rivals.interpolations().collect(),
+            Form::Toolpath(_) | Form::Motion(_) | Form::Page(_) => Vec::new(),
         }
     }
 }
@@ -103,7 +110,7 @@ struct Made {
     toolpaths: Vec<Toolpath>,
     /// Planned cuts of each toolpath; empty if no motion is wanted.
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
-    /// Arcs of each toolpath, for each target of arcs.
+    /// Arcs of each toolpath, for each target of arcs and each choice of moves.
     arcs: Vec<Vec<Result<Arcs, Vec<Unfit>>>>,
     /// Deviations from the drawing.
     declared: Vec<Declaration>,
@@ -118,7 +125,7 @@ struct Wanted<'a> {
     cloth: Option<&'a Cloth<'a>>,
     motion: bool,
     advance: &'a Advance,
-    /// Interpolation that each target of arcs supports.
+    /// Interpolation of each target of arcs and each choice of moves.
     interpolations: Vec<Interpolation>,
 }
 
@@ -177,13 +184,13 @@ pub(super) fn write(
     for refusal in sinks.iter().flat_map(|sink| sink.refusals(context)) {
         count(&mut refused, refusal);
     }
-    let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
+    let interpolations = sinks.iter().flat_map(Sink::interpolations).collect();
     let motion = motion || sinks.iter().any(Sink::needs_motion);
     for Sink { form, out } in &mut *sinks {
         match form {
             Form::Toolpath(parts) => (parts.head)(context, out)?,
             Form::Motion(parts) => (parts.head)(context, out)?,
-            Form::Arcs(_, writer) => writer.head(out)?,
+            Form::Arcs(rivals) => rivals.head(out)?,
             Form::Page(_) => {}
         }
     }
@@ -256,18 +263,7 @@ impl Writer<'_, '_, '_> {
                         (parts.body)(toolpath, self.context, out)?;
                     }
                 }
-                Form::Arcs(target, writer) => {
-                    for (toolpath, arcs) in toolpaths.iter().zip(arcs.next().expect("every target has its arcs")) {
-                        match arcs {
-                            Err(unfit) => {
-                                for run in &unfit {
-                                    count(&mut self.refused, (target.unfit)(run));
-                                }
-                            }
-                            Ok(arcs) => writer.body(toolpath, &arcs, out)?,
-                        }
-                    }
-                }
+                Form::Arcs(rivals) => rivals.take(&toolpaths, &mut arcs, out)?,
             }
         }
         Ok(())
@@ -287,6 +283,11 @@ impl Writer<'_, '_, '_> {
 
     /// Ends the programs. `savings` is known if they were planned.
     fn finish(mut self, savings: Option<Savings>, diagnostics: &mut Diagnostics) -> io::Result<Written> {
+        for Sink { form, .. } in &mut *self.sinks {
+            if let Form::Arcs(rivals) = form {
+                rivals.refuse(&mut self.refused);
+            }
+        }
         for (first, cuts) in std::mem::take(&mut self.refused) {
             let Diagnostic { message, span, .. } = &first;
             let message = match span {
@@ -310,25 +311,11 @@ impl Writer<'_, '_, '_> {
             match form {
                 Form::Toolpath(_) | Form::Page(_) => {}
                 Form::Motion(parts) => (parts.tail)(self.context, Outcome::default(), out)?,
-                Form::Arcs(_, writer) => written.estimate = Some(writer.tail(out)?),
+                Form::Arcs(rivals) => written.estimate = Some(rivals.tail(out)?),
             }
             out.flush()?;
         }
         Ok(written)
-    }
-}
-
-/// Adds a refused cut to the others of its kind.
-fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
-    let is_alike = |(first, _): &&mut (Diagnostic, usize)| first.code == cut.code && first.message == cut.message;
-    match refused.iter_mut().find(is_alike) {
-        Some((first, cuts)) => {
-            *cuts += 1;
-            if cut.span < first.span {
-                *first = cut;
-            }
-        }
-        None => refused.push((cut, 1)),
     }
 }
 

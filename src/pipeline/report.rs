@@ -145,9 +145,25 @@ pub struct Controller {
     pub moves: usize,
     /// Name of the planner whose time it is.
     pub planner: &'static str,
+    /// Moves that were chosen because they are the fastest; absent if the profile fixes them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<String>,
+    /// Moves that were not chosen, the fastest first; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<Other>,
     /// Time by limit, the greatest first; absent where it is not known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<Limited>,
+}
+
+/// Moves of a controller that were not chosen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Other {
+    /// Their name.
+    pub moves: String,
+    /// Likely duration, s; absent if the file cannot be cut with them, or only with chords that the decimals do not tell.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "micro_known")]
+    pub time_s: Option<f64>,
 }
 
 /// Figures of a program that is not written.
@@ -171,9 +187,11 @@ pub struct Limited {
 }
 
 impl From<Estimate> for Controller {
-    fn from(Estimate { spent, moves, planner }: Estimate) -> Self {
+    fn from(Estimate { spent, moves, planner, chosen, .. }: Estimate) -> Self {
+        let (chosen, others) = chosen.map_or((None, Vec::new()), |chosen| (Some(chosen.name), chosen.others));
+        let others = others.into_iter().map(|(moves, time_s)| Other { moves, time_s }).collect();
         let limits = spent.limits.into_iter().map(|(limit, time_s)| Limited { limit, time_s }).collect();
-        Self { time_s: spent.time, moves, planner, limits }
+        Self { time_s: spent.time, moves, planner, chosen, others, limits }
     }
 }
 

@@ -1,9 +1,15 @@
 //! Profiles that ship, a controller each: what a machine of that kind is given for a small job, and how they are taken by name.
 
 use std::fs;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 
-use cutc::machine::SHIPPED;
+use cutc::back::TARGETS;
+use cutc::diagnostic::Diagnostics;
+use cutc::machine::{Job, SHIPPED, load};
+use cutc::pipeline::{self, Order};
+use cutc::source::Source;
+use cutc::verify::{self, Ground};
 
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
@@ -95,12 +101,15 @@ fn a_name_that_no_profile_has_is_answered_with_those_that_ship() {
 #[test]
 fn an_output_that_does_not_wait_for_moves_is_switched_where_the_axes_stand() {
     let room = room();
-    let held = "\nG4 P0.010\nM64 P1\nG4 P0.300\nM65 P1\n";
-    for name in ["grblhal", "grblhal-arcs", "fluidnc", "fluidnc-arcs", "mega5x"] {
+    let grbl = |name| (name, 'P', "\nG4 P0.010\nM64 P1\nG4 P0.300\nM65 P1\n");
+    let reprap = ("reprap", 'S', "\nG4 S0.010\nM42 P1 S1\nG4 S0.300\nM42 P1 S0\n");
+    let machines = ["grblhal", "grblhal-arcs", "fluidnc", "fluidnc-arcs", "mega5x"].map(grbl);
+    for (name, word, held) in machines.into_iter().chain([reprap]) {
         let (program, _) = room.expect(&format!("compile pocket.cut -p {name} -t gcode -o -"), DONE);
         assert!(program.contains(held), "{name}: {program}");
         let check = |from: &str, to: &str, expected: &str| {
-            let damaged = program.replacen(from, to, 1);
+            let [from, to] = [from, to].map(|text| text.replace("G4 P", &format!("G4 {word}")));
+            let damaged = program.replacen(&from, &to, 1);
             assert_ne!(damaged, program, "{name}: {from}");
             room.write("damaged.ngc", damaged.as_bytes());
             let (said, _) = room.expect(&format!("verify damaged.ngc --source pocket.cut -p {name}"), FAULTY);
@@ -112,6 +121,84 @@ fn an_output_that_does_not_wait_for_moves_is_switched_where_the_axes_stand() {
         check("G4 P0.010\n", "G4 P0.020\n", "verify/dwell");
         // Nothing is switched after this rest.
         check("\nG1 X70.0000", "\nG4 P0.010\nG1 X70.0000", "verify/dwell");
+    }
+}
+
+#[test]
+fn a_rest_of_another_dialect_is_none() {
+    let room = room();
+    for (name, from, to) in [("reprap", "G4 S", "G4 P"), ("fluidnc", "G4 P", "G4 S"), ("linuxcnc", "G4 P", "G4 S")] {
+        room.expect(&format!("compile pocket.cut -p {name} -t gcode -o out.ngc --force"), DONE);
+        let damaged = room.text("out.ngc").replacen(from, to, 1);
+        room.write("damaged.ngc", damaged.as_bytes());
+        let (said, _) = room.expect(&format!("verify damaged.ngc --source pocket.cut -p {name}"), FAULTY);
+        assert!(said.contains("verify/format"), "{name}: {said}");
+    }
+}
+
+#[test]
+fn arcs_in_inverse_time_are_refused_for_a_controller_that_does_not_divide_it() {
+    let room = room();
+    let fixed = "--set gcode.moves=fixed --set gcode.feed_mode=G93";
+    for (name, who) in [("reprap", "RepRapFirmware"), ("fluidnc-arcs", "the grbl family")] {
+        let (_, stderr) = room.expect(&format!("compile pocket.cut -p {name} {fixed} -t gcode -o out.ngc"), USAGE);
+        assert!(stderr.contains(&format!("is \"G93\" with arcs, which {who} mistimes")), "{stderr}");
+    }
+    room.expect(&format!("compile pocket.cut -p reprap {fixed} --set gcode.arcs=false -t gcode -o out.ngc"), DONE);
+    room.expect(&format!("compile pocket.cut -p linuxcnc {fixed} -t gcode -o arcs.ngc"), DONE);
+}
+
+/// A line with its word of a letter changed; `None` if it has none.
+fn with_word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> Option<String> {
+    let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+    let word = words.iter_mut().skip(1).find(|word| word.starts_with(letter))?;
+    *word = format!("{letter}{:.5}", change(word[1..].parse().ok()?));
+    Some(words.join(" "))
+}
+
+#[test]
+fn two_hundred_damaged_programs_of_each_dialect_are_refused() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/controllers/pocket.cut");
+    let source = Source::new("pocket.cut", fs::read(path).expect("a fixture")).expect("small");
+    for shipped in SHIPPED {
+        let job = Job { profile: load(Some(&shipped.source()), &[]).expect("it is legal"), ..Job::default() };
+        let mut said = Diagnostics::default();
+        let target = TARGETS.iter().find(|target| target.name == "gcode").expect("a target");
+        let mut out = Cursor::new(Vec::new());
+        let order = Order { from: None, target, verify: true };
+        pipeline::compile(&source, &job, order, &mut out, &mut said).expect("memory takes it").expect("a program");
+        let program = String::from_utf8(out.into_inner()).expect("ASCII");
+        let input = pipeline::read(&source, None, &job, &mut said).expect("it is read");
+        let ground = Ground::new(&input.marker, &job.profile);
+        let passes = |text: &str| verify::positions(&mut BufReader::new(text.as_bytes()), None, &ground, &job).passes();
+        assert!(passes(&program), "{}", shipped.name);
+        let lines: Vec<&str> = program.lines().collect();
+        let mut random = fastrand::Rng::with_seed(51);
+        let mut count = 0;
+        while count < 200 {
+            let at = random.usize(..lines.len());
+            let (line, sign) = (lines[at], if random.bool() { 1.0 } else { -1.0 });
+            let (kind, by) = (random.usize(..4), sign * (1.0 + 4.0 * random.f64()));
+            let changed = match kind {
+                _ if line.starts_with('(') => continue,
+                0 => with_word(line, ['X', 'Y'][random.usize(..2)], |place| place + by),
+                // A hole is drilled with the blade any way round.
+                1 if line.starts_with("G0") => continue,
+                1 => with_word(line, char::from(job.profile.gcode.letter.byte()), |turn| turn + 2.0 * by),
+                2 => with_word(line, 'F', |feed| 40.0 * feed),
+                _ => {
+                    let words: Vec<&str> = line.split(' ').collect();
+                    let left_out = random.usize(..words.len());
+                    let kept = words.iter().enumerate().filter(|(i, _)| *i != left_out).map(|(_, word)| *word);
+                    Some(kept.collect::<Vec<_>>().join(" "))
+                }
+            };
+            let Some(changed) = changed else { continue };
+            let mut damaged: Vec<String> = lines.iter().map(|&line| line.to_owned()).collect();
+            damaged[at].clone_from(&changed);
+            assert!(!passes(&(damaged.join("\n") + "\n")), "{}: `{changed}` for `{line}`", shipped.name);
+            count += 1;
+        }
     }
 }
 

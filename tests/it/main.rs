@@ -36,6 +36,7 @@ mod markers;
 mod marks;
 mod messages;
 mod motion;
+mod moves;
 mod nest;
 mod notch_forms;
 mod notches;

@@ -11,19 +11,37 @@ mod refusal;
 use std::io;
 
 use self::program::Program;
-use super::target::{ArcTarget, ArcWriter, Context, Emit, Estimate, Output, Proof, Target};
+use super::target::{ArcTarget, ArcWriter, Choice, Context, Emit, Estimate, Output, Proof, Target};
 use crate::ir::arcs::{Interpolation, Path};
 use crate::ir::toolpath::Step;
 use crate::ir::{Arcs, Toolpath};
-use crate::machine::Job;
+use crate::machine::gcode::Gcode;
+use crate::machine::{Job, MachineProfile};
+use crate::units::number::short;
 
 pub(super) const TARGET: Target = Target {
     name: "gcode",
     about: "G-code of arcs and lines with C, for LinuxCNC and its like",
     extension: "ngc",
-    emit: Emit::Arcs(ArcTarget { interpolation, refusals: refusal::refusals, unfit: refusal::unfit, begin }),
+    emit: Emit::Arcs(ArcTarget { choices, interpolation, refusals: refusal::refusals, unfit: refusal::unfit, begin }),
     proof: Some(Proof::Positions),
 };
+
+/// Moves among which the profile leaves the choice.
+fn choices(job: &Job) -> Vec<Choice> {
+    let choice = |keys: Gcode| {
+        let mode = keys.feed_mode.code();
+        let name = if keys.arcs {
+            format!("arcs in {mode}")
+        } else {
+            let [off, askew] = [keys.chord_mm, keys.heading_tolerance_deg].map(short);
+            format!("lines in {mode} within {off} mm and {askew} degrees")
+        };
+        let profile = MachineProfile { gcode: keys, ..job.profile.clone() };
+        Choice { name, job: Job { profile, ..job.clone() } }
+    };
+    job.profile.gcode.choices().into_iter().map(choice).collect()
+}
 
 /// Paths that its controller accepts.
 fn interpolation(job: &Job) -> Interpolation {
@@ -54,7 +72,7 @@ impl ArcWriter for Program<'_> {
     fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate> {
         let spent = self.finish();
         self.drain(out)?;
-        Ok(Estimate { spent, moves: self.moves, planner: self.planned_by() })
+        Ok(Estimate { spent, moves: self.moves, planner: self.planned_by(), coarse: self.coarse, chosen: None })
     }
 }
 

@@ -8,7 +8,7 @@ use crate::back::target::{Context, Limit, Output, Spent};
 use crate::geom::{Point, Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
-use crate::machine::gcode::{FeedCounts, FeedMode, SETTLE, Step};
+use crate::machine::gcode::{Dialect, FeedCounts, FeedMode, SETTLE, Step};
 use crate::machine::{Job, Mode};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
@@ -44,7 +44,8 @@ struct Lines {
 
 impl Lines {
     fn new(steps: &[Step], job: &Job) -> Self {
-        let text = steps.iter().map(Step::to_string).collect::<Vec<_>>().join("\n").into();
+        let dialect = job.profile.gcode.dialect;
+        let text = steps.iter().map(|step| step.in_dialect(dialect)).collect::<Vec<_>>().join("\n").into();
         let moves_z = steps.iter().any(|step| matches!(step, Step::Z { .. }));
         Self { text, steps: steps.into(), must_stand: job.profile.gcode.must_stand(steps), moves_z }
     }
@@ -74,6 +75,8 @@ pub(super) struct Program<'a> {
     lines: u64,
     /// Number of moves with the knife down.
     pub(super) moves: usize,
+    /// Number of arcs whose chords are coarser than permitted, because the decimals tell no finer ones.
+    pub(super) coarse: usize,
     planner: Box<dyn Planner>,
 }
 
@@ -85,13 +88,29 @@ impl<'a> Program<'a> {
         let keys = &job.profile.gcode;
         let knife = [&keys.knife_down, &keys.knife_up].map(|steps| Lines::new(steps, job));
         let planner = pace::planner(job);
-        Self { job, source, text: Vec::new(), pose, knife, stands: true, station, lines: 0, moves: 0, planner }
+        Self {
+            job,
+            source,
+            text: Vec::new(),
+            pose,
+            knife,
+            stands: true,
+            station,
+            lines: 0,
+            moves: 0,
+            coarse: 0,
+            planner,
+        }
     }
 
     /// Writes the lines before the first move.
     pub(super) fn start(&mut self) {
         let keys = &self.job.profile.gcode;
-        self.say("G17 G21 G40 G80 G90 G91.1");
+        self.say(match keys.dialect {
+            Dialect::Rs274 => "G17 G21 G40 G80 G90 G91.1",
+            // It knows neither offsets of the tool, canned cycles nor centres that are not relative.
+            Dialect::Reprap => "G17 G21 G90",
+        });
         if let Some(blend) = keys.blend_mm {
             // Q0 keeps arcs as arcs; otherwise flat ones would become pairs of lines with a kink.
             self.say(&format!("G64 P{} Q0", exact(blend)));
@@ -221,7 +240,11 @@ impl<'a> Program<'a> {
     /// Writes a rest of the axes, s.
     fn dwell(&mut self, time: f64) {
         self.number();
-        self.text.extend_from_slice(b"G4 P");
+        self.text.extend_from_slice(match self.job.profile.gcode.dialect {
+            Dialect::Rs274 => b"G4 P",
+            // P of `RepRapFirmware` is in ms.
+            Dialect::Reprap => b"G4 S",
+        });
         push_fixed(&mut self.text, time, FEED_DECIMALS);
         self.text.push(b'\n');
         self.planner.wait(time);
@@ -269,7 +292,8 @@ impl<'a> Program<'a> {
                 self.push_feed(feed.speed, piece.length, turned);
             }
             _ => {
-                let parts = self.chords(piece, path.chord);
+                let [parts, needed] = self.chords(piece, path.chord);
+                self.coarse += usize::from(parts < needed);
                 for i in 1..=parts {
                     let share = i as f64 / parts as f64;
                     let c = Rotation(from.c.0 + (piece.to.c.0 - from.c.0) * share);
@@ -340,16 +364,17 @@ impl<'a> Program<'a> {
         (length, if fastest > 0.0 { length / fastest } else { 1.0 })
     }
 
-    /// Number of chords that approximate a piece within a permitted deviation.
-    fn chords(&self, piece: &Piece, permitted: Deviation) -> usize {
+    /// Number of chords that approximate a piece, and the number that a permitted deviation needs.
+    fn chords(&self, piece: &Piece, permitted: Deviation) -> [usize; 2] {
         let keys = &self.job.profile.gcode;
-        piece.arc.map_or(1, |Arc { turn, .. }| {
+        piece.arc.map_or([1; 2], |Arc { turn, .. }| {
             // A chord over a turn t deviates from its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
             let by_heading = turn.abs() / (2.0 * permitted.angle);
             let by_distance = (piece.length * turn.abs() / (8.0 * permitted.distance)).sqrt();
             // Rounding by d turns a chord of length l by d / l. A chord shorter than sqrt(2 d l / t) turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();
-            by_heading.max(by_distance).min(by_decimals).ceil().max(1.0) as usize
+            let needed = by_heading.max(by_distance);
+            [needed.min(by_decimals), needed].map(|count| count.ceil().max(1.0) as usize)
         })
     }
 

@@ -3,6 +3,8 @@
 //! Its actions on knife, drills, operator and cloth are lists of [`Step`]s. Only the head and the end of a program are free
 //! text, which may choose and switch but not move (`text`). `rules` checks them against each other.
 
+mod choices;
+mod dialect;
 mod keys;
 mod rules;
 mod spelling;
@@ -12,6 +14,7 @@ mod words;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::dialect::Dialect;
 pub(super) use self::keys::KEYS;
 pub(super) use self::rules::faults;
 pub(super) use self::spelling::spellings;
@@ -23,10 +26,14 @@ use super::word::{Off, OrWord};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gcode {
+    /// Rules of spelling.
+    pub dialect: Dialect,
     /// Letter of the axis that turns the blade.
     pub letter: Letter,
     /// True if that axis counts within one turn.
     pub wrapped: bool,
+    /// Who chooses between arcs and lines, their chords, and the meaning of F.
+    pub moves: Moves,
     /// True if the axis may turn on arcs.
     pub arcs: bool,
     /// Greatest radius of an arc, mm; `None` = any.
@@ -50,6 +57,10 @@ pub struct Gcode {
     pub junction_deviation_mm: f64,
     /// Deviation of the chords into which it divides arcs.
     pub arc_tolerance_mm: f64,
+    /// Change of the speed of X, Y and Z that a `RepRapFirmware` planner makes at once.
+    pub jump_mm_s: f64,
+    /// Change of the speed of the axis of the blade that it makes at once.
+    pub jump_deg_s: f64,
     /// Maximum speed of Z; `None` = moves of Z are not counted.
     #[serde(with = "OrWord::<Off>")]
     pub z_speed_mm_s: Option<f64>,
@@ -96,6 +107,16 @@ impl Gcode {
     }
 }
 
+/// Chooser of the moves of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Moves {
+    /// The profile: its keys hold.
+    Fixed,
+    /// The program: the fastest of [`Gcode::choices`] by the planner of the controller.
+    Auto,
+}
+
 /// Letter of a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Letter {
@@ -128,6 +149,9 @@ pub enum FeedMode {
 }
 
 impl FeedMode {
+    /// Both modes.
+    pub const ALL: [Self; 2] = [Self::G93, Self::G94];
+
     /// Code that selects the mode.
     pub fn code(self) -> &'static str {
         match self {
@@ -155,6 +179,8 @@ pub enum Planner {
     Linuxcnc,
     /// grbl and its descendants: grbl-Mega-5X, grblHAL, `FluidNC`.
     Grbl,
+    /// `RepRapFirmware` 3.5.
+    Reprap,
 }
 
 impl Planner {
@@ -163,6 +189,7 @@ impl Planner {
         match self {
             Self::Linuxcnc => "LinuxCNC",
             Self::Grbl => "grbl",
+            Self::Reprap => "RepRapFirmware",
         }
     }
 }
@@ -180,8 +207,10 @@ pub enum Outputs {
 impl Default for Gcode {
     fn default() -> Self {
         Self {
+            dialect: Dialect::Rs274,
             letter: Letter::C,
             wrapped: false,
+            moves: Moves::Fixed,
             arcs: true,
             max_radius_mm: None,
             feed_mode: FeedMode::G94,
@@ -192,6 +221,8 @@ impl Default for Gcode {
             planner_blocks: 15,
             junction_deviation_mm: 0.01,
             arc_tolerance_mm: 0.002,
+            jump_mm_s: 15.0,
+            jump_deg_s: 15.0,
             z_speed_mm_s: None,
             z_acceleration_mm_s2: None,
             decimals: 4,

@@ -4,14 +4,14 @@
 use super::step::{Parameter, Step, WHAT_ACTS};
 use super::text::{self, Line, ProgramEnd};
 use super::words::{Flaw, Number};
-use super::{FeedCounts, FeedMode, Gcode};
+use super::{Dialect, FeedMode, Gcode, Moves};
 use crate::machine::MachineProfile;
 use crate::machine::fault::Fault;
 
 /// Numbers of drills.
 const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 /// M codes that wait for the operator.
-const WAITS: [u8; 3] = [0, 1, 60];
+const WAITS: [u8; 4] = [0, 1, 60, 226];
 
 /// Steps of a key.
 struct List<'a> {
@@ -156,6 +156,9 @@ enum Actuator {
 fn what(step: &Step) -> Option<Actuator> {
     match step {
         Step::Output { pin, .. } => Some(Actuator::Output(pin.of(0.0))),
+        Step::Code { m: 42, parameters } => {
+            parameters.iter().find(|word| word.letter == 'P').map(|word| Actuator::Output(word.number.of(0.0)))
+        }
         Step::Z { .. } => Some(Actuator::Z),
         Step::Code { m: 3..=5, .. } => Some(Actuator::Spindle),
         Step::Code { m: 7..=9, .. } => Some(Actuator::Coolant),
@@ -293,15 +296,18 @@ fn unasked(lists: &[List], texts: [(&'static str, Vec<Line>); 2]) -> Vec<Fault> 
     others.into_iter().chain(texts).filter_map(fault).collect()
 }
 
-/// Fault of arcs in inverse time on a planner that counts the degrees of the rotary axis. Such controllers multiply F by the
-/// number of chords of an arc and then take it for a speed: the arc takes the length of a chord times as long as asked
-/// (grblHAL and FluidNC, `mc_arc`).
+/// Fault of arcs in inverse time on a controller that mistimes them.
 fn mistimed(keys: &Gcode) -> Option<Fault> {
-    let is_mistimed = keys.arcs && keys.feed_mode == FeedMode::G93 && keys.feed_counts == FeedCounts::All;
-    is_mistimed.then(|| {
-        let message = "`gcode.feed_mode` is \"G93\" with arcs, which the grbl family mistimes";
-        let hint = "take \"G94\" or `gcode.arcs = false`; others have `gcode.feed_counts = \"linear\"`";
-        Fault::of_range(&["gcode.feed_mode", "gcode.arcs", "gcode.feed_counts"], message.to_owned(), hint)
+    (keys.moves == Moves::Fixed && keys.mistimes_arcs()).then(|| {
+        let (who, hint, others) = match keys.dialect {
+            Dialect::Rs274 => {
+                let hint = "take \"G94\" or `gcode.arcs = false`; others have `gcode.feed_counts = \"linear\"`";
+                ("the grbl family", hint, "gcode.feed_counts")
+            }
+            Dialect::Reprap => ("RepRapFirmware", "take \"G94\" or `gcode.arcs = false`", "gcode.dialect"),
+        };
+        let message = format!("`gcode.feed_mode` is \"G93\" with arcs, which {who} mistimes");
+        Fault::of_range(&["gcode.feed_mode", "gcode.arcs", others], message, hint)
     })
 }
 
@@ -315,8 +321,8 @@ fn hasty(list: &List, keys: &Gcode) -> Option<Fault> {
 
 /// Fault of a list with a feed of Z in inverse time: there F is the inverse of the time of a move, and not a speed.
 fn inverse_feed(list: &List, keys: &Gcode) -> Option<Fault> {
-    let has_feed = |step: &&Step| matches!(step, Step::Z { feed_mm_min: Some(_), .. });
-    let step = list.steps.iter().find(has_feed).filter(|_| keys.feed_mode == FeedMode::G93)?;
+    let is_inverse = keys.moves == Moves::Fixed && keys.feed_mode == FeedMode::G93;
+    let step = list.steps.iter().find(|step| step.has_feed()).filter(|_| is_inverse)?;
     let message = format!("`{}` has {step}, whose F is no speed where `gcode.feed_mode` is \"G93\"", list.key);
     let hint = "G0 moves Z as fast as the controller lets it: set the speed of Z there";
     Some(Fault::of_range(&[list.key, "gcode.feed_mode"], message, hint))

@@ -9,6 +9,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
+use super::dialect::Dialect;
 pub use super::words::Number;
 use super::words::{Flaw, Word, words};
 
@@ -81,15 +82,18 @@ pub(super) const FORMS: &[Form] = &[
     form("M7", "", "M7", "mist coolant goes on"),
     form("M8", "", "M8", "flood coolant goes on"),
     form("M9", "", "M9", "all coolant goes off"),
+    form("M42", "PS", "M42 P0 S1", "an output is set, P = its number, S = its value, 0 to 1"),
     form("M60", "", "M60", "pallets are changed, and the operator is waited for"),
     form("M64", "P", "M64 P0", "a digital output goes on, P = its number"),
     form("M65", "P", "M65 P0", "a digital output goes off, P = its number"),
     form("M66", "PLQ", "M66 P0 L3 Q10", "an input is waited for, P = its number, L = how, Q = s at the most"),
+    form("M226", "", "M226", "the operator is waited for"),
     form("M68", "EQ", "M68 E0 Q5", "an analog output is set, E = its number, Q = its value"),
 ];
 
 /// Hint for a list of steps for a tool without any that acts.
-pub(super) const WHAT_ACTS: &str = "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F";
+pub(super) const WHAT_ACTS: &str =
+    "what acts is M64 P, M65 P, M68 E Q, M42 P S, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F";
 /// Codes that switch outputs only at the start of the next move: the knife would come down while it moves on.
 const LATE: &[&str] = &["M62", "M63", "M67"];
 /// Codes that run programs of the controller's own.
@@ -118,9 +122,28 @@ impl Step {
         }
     }
 
-    /// True if some controllers obey it when they read it, before the moves that they have planned are over: M64 to M66, M68.
+    /// True if some controllers obey it when they read it, before the moves that they have planned are over: M42, M64 to M66,
+    /// M68.
     pub(super) fn acts_when_read(&self) -> bool {
-        matches!(self, Self::Output { .. } | Self::Code { m: 66 | 68, .. })
+        matches!(self, Self::Output { .. } | Self::Code { m: 42 | 66 | 68, .. })
+    }
+
+    /// True if it moves Z at a speed, which is an F.
+    pub(super) fn has_feed(&self) -> bool {
+        matches!(self, Self::Z { feed_mm_min: Some(_), .. })
+    }
+
+    /// True if it switches an output when some controllers read it; the moves before it go on.
+    pub fn switches_when_read(&self) -> bool {
+        matches!(self, Self::Output { .. } | Self::Code { m: 42 | 68, .. })
+    }
+
+    /// Text as in a program of a dialect.
+    pub fn in_dialect(&self, dialect: Dialect) -> String {
+        match (self, dialect) {
+            (Self::Dwell { time }, Dialect::Reprap) => format!("G4 S{}", Number::Plain(*time)),
+            _ => self.to_string(),
+        }
     }
 
     /// True if it contains `#`.
@@ -193,6 +216,7 @@ fn checked(word: Word, form: &Form) -> Result<(), Flaw> {
     };
     match word.letter {
         'F' if number <= 0.0 => flaw(", which is no speed", "F is above 0, in mm/min"),
+        'S' if is("M42") && !(0.0..=1.0).contains(&number) => flaw(", which is no value", "S of M42 is from 0 to 1"),
         'S' if number < 0.0 => flaw(", which is no speed", "S is from 0 on"),
         'P' if is("G4") && number < 0.0 => flaw(", which is no time", "P of G4 is from 0 on, in seconds"),
         'P' | 'E' if !is("G4") && !is_whole(number, PIN_MAX) => {

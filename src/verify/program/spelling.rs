@@ -2,7 +2,7 @@
 
 use super::number::{self, decimal, leading};
 use crate::machine::MachineProfile;
-use crate::machine::gcode::Step;
+use crate::machine::gcode::{Dialect, Step};
 use crate::units::number::exact;
 
 /// First words of comments that controllers execute.
@@ -148,13 +148,16 @@ impl Expected {
     }
 
     /// Line of a step of the profile, with `blank` for a number that the step leaves open.
-    pub(in crate::verify) fn of_step(step: &Step, blank: f64) -> Self {
+    pub(in crate::verify) fn of_step(step: &Step, blank: f64, dialect: Dialect) -> Self {
         let word = |letter: char, number: f64| format!(" {letter}{}", exact(number));
         let text = match step {
             Step::Output { pin, on } => format!("M{}{}", if *on { 64 } else { 65 }, word('P', pin.of(blank))),
             Step::Z { to_mm, feed_mm_min: None } => format!("G0{}", word('Z', *to_mm)),
             Step::Z { to_mm, feed_mm_min: Some(feed) } => format!("G1{}{}", word('Z', *to_mm), word('F', *feed)),
-            Step::Dwell { time } => format!("G4{}", word('P', *time)),
+            Step::Dwell { time } => match dialect {
+                Dialect::Rs274 => format!("G4{}", word('P', *time)),
+                Dialect::Reprap => format!("G4{}", word('S', *time)),
+            },
             Step::Code { m, parameters } => {
                 let words = parameters.iter().map(|parameter| word(parameter.letter, parameter.number.of(blank)));
                 format!("M{m}{}", words.collect::<String>())
@@ -191,6 +194,7 @@ pub(in crate::verify) struct Words {
     pub(in crate::verify) i: Option<f64>,
     pub(in crate::verify) j: Option<f64>,
     pub(in crate::verify) f: Option<f64>,
+    /// Time of a rest, s.
     pub(in crate::verify) p: Option<f64>,
 }
 
@@ -226,13 +230,13 @@ impl Words {
     }
 
     /// Letter that a line of motion must not have; for example, P on an arc is a number of turns.
-    pub(in crate::verify) fn foreign_to(&self, code: f64) -> Option<char> {
+    pub(in crate::verify) fn foreign_to(&self, code: f64, dialect: Dialect) -> Option<char> {
         let is_arc = code > 1.0;
         let there = [
             ('I', self.i.is_some() && !is_arc),
             ('J', self.j.is_some() && !is_arc),
             ('F', self.f.is_some() && code == 0.0),
-            ('P', self.p.is_some()),
+            (if dialect == Dialect::Rs274 { 'P' } else { 'S' }, self.p.is_some()),
         ];
         there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
     }
@@ -246,7 +250,9 @@ impl Words {
             b'I' => &mut self.i,
             b'J' => &mut self.j,
             b'F' => &mut self.f,
-            b'P' => &mut self.p,
+            // P of `RepRapFirmware` is in ms.
+            b'P' if profile.gcode.dialect == Dialect::Rs274 => &mut self.p,
+            b'S' if profile.gcode.dialect == Dialect::Reprap => &mut self.p,
             letter if letter == profile.gcode.letter.byte() => &mut self.c,
             _ => return None,
         })

@@ -9,29 +9,21 @@
 //! precision, and the jerk of grblHAL's `ENABLE_JERK_ACCELERATION`, which is off unless built in. `tests/bench/grbl_time.py`
 //! compares the times with those of a simulation by small steps of time.
 
-use super::buffer::{Block, Supply, durations};
+use super::buffer::Block;
 use super::planner::{Move, Planner};
+use super::queue::{Axis, Queue, axes, norm, slowest};
 use crate::back::target::{Limit, Spent};
 use crate::geom::Vector;
+use crate::machine::Job;
 use crate::machine::gcode::{Gcode, Outputs, Step};
-use crate::machine::{Job, Limits};
 use crate::units::{S_PER_MIN, deg};
 
-/// Letters of the axes, in the order of their distances.
-const AXES: [char; 4] = ['x', 'y', 'z', 'c'];
 /// Cosine of the angle between two directions above which they are one, and below whose negative they are opposite.
 const STRAIGHT: f64 = 0.999_999;
 /// Greatest number of chords of an arc: the firmware counts them in 16 bits.
 const MOST_CHORDS: f64 = 65_535.0;
 /// Least speed of a block: 1 mm/min.
 const SPEED_MIN: f64 = 1.0 / S_PER_MIN;
-
-/// Speed and acceleration of an axis, mm or degrees.
-#[derive(Debug, Clone, Copy)]
-struct Axis {
-    speed: f64,
-    acceleration: f64,
-}
 
 /// Planner with the blocks since the last rest.
 #[derive(Debug)]
@@ -41,12 +33,9 @@ pub(super) struct Pace {
     axes: [[Axis; 4]; 2],
     /// Place of Z, mm; `None` before its first move.
     z: Option<f64>,
-    blocks: Vec<Block>,
-    /// Limit of the speed and of the acceleration of each block.
-    limits: Vec<[Limit; 2]>,
+    queue: Queue,
     /// Direction of the last block.
     along: [f64; 4],
-    spent: Vec<(Limit, f64)>,
 }
 
 /// A block as it is asked for.
@@ -61,17 +50,9 @@ struct Asked {
 
 impl Pace {
     pub(super) fn new(job: &Job) -> Self {
-        let (keys, axes) = (job.profile.gcode.clone(), &job.profile.axes);
-        let linear = |limits: &Limits| Axis { speed: limits.speed, acceleration: limits.acceleration };
-        let z = Axis {
-            speed: keys.z_speed_mm_s.unwrap_or(f64::INFINITY),
-            acceleration: keys.z_acceleration_mm_s2.unwrap_or(f64::INFINITY),
-        };
-        let axes = [axes.limits(), axes.travel_limits()].map(|[x, y, c]| {
-            let c = Axis { speed: deg(c.speed), acceleration: deg(c.acceleration) };
-            [linear(&x), linear(&y), z, c]
-        });
-        Self { keys, axes, z: None, blocks: Vec::new(), limits: Vec::new(), along: [0.0; 4], spent: Vec::new() }
+        let keys = job.profile.gcode.clone();
+        let queue = Queue::new(&keys);
+        Self { keys, axes: axes(job), z: None, queue, along: [0.0; 4] }
     }
 
     /// Adds a block with the limits of the axes along it.
@@ -86,13 +67,13 @@ impl Pace {
         let (acceleration, ramp) = slowest(along, axes.map(|axis| axis.acceleration));
         let limit = if most < asked.speed { Limit::Speed(axis) } else { asked.limit };
         let speed = most.min(asked.speed).max(SPEED_MIN);
-        let entry = self.blocks.last().map_or(0.0, |before| {
+        let entry = self.queue.blocks.last().map_or(0.0, |before| {
             let corner =
                 junction([self.along, along], axes.map(|axis| axis.acceleration), self.keys.junction_deviation_mm);
             corner.min(before.speed.min(speed).powi(2))
         });
-        self.blocks.push(Block { length, speed, acceleration, entry, is_line: asked.is_line });
-        self.limits.push([limit, Limit::Acceleration(ramp)]);
+        let block = Block { length, speed, acceleration, entry, is_line: asked.is_line };
+        self.queue.push(block, [limit, Limit::Acceleration(ramp)]);
         self.along = along;
     }
 
@@ -118,35 +99,11 @@ impl Pace {
     fn lift(&mut self, to: f64, feed_mm_min: Option<f64>) {
         let way = self.z.replace(to).map_or(0.0, |from| to - from);
         if self.keys.z_speed_mm_s.is_none() || self.keys.z_acceleration_mm_s2.is_none() {
-            self.stop();
+            self.queue.stop();
             return;
         }
         let speed = feed_mm_min.map_or(f64::INFINITY, |feed| feed / S_PER_MIN);
         self.push(&Asked { ways: [0.0, 0.0, way, 0.0], speed, limit: Limit::Speed('z'), is_line: true });
-    }
-
-    /// Brings the axes to rest.
-    fn stop(&mut self) {
-        let room = self.keys.planner_blocks as usize;
-        let gap = self.keys.max_blocks_s.map_or(0.0, f64::recip);
-        let free = durations(&self.blocks, Supply::UNLIMITED);
-        let [fed, supplied] = [0.0, gap].map(|gap| durations(&self.blocks, Supply { room, gap }).iter().sum::<f64>());
-        let blocks = std::mem::take(&mut self.blocks);
-        let limits = std::mem::take(&mut self.limits);
-        for ((block, [speed, ramp]), time) in blocks.iter().zip(limits).zip(&free) {
-            let level = block.length / block.speed;
-            self.spend(speed, level);
-            self.spend(ramp, time - level);
-        }
-        self.spend(Limit::LookAhead, fed - free.iter().sum::<f64>());
-        self.spend(Limit::Late, supplied - fed);
-    }
-
-    fn spend(&mut self, limit: Limit, time: f64) {
-        match self.spent.iter_mut().find(|(known, _)| *known == limit) {
-            Some((_, sum)) => *sum += time,
-            None => self.spent.push((limit, time)),
-        }
     }
 }
 
@@ -167,17 +124,16 @@ impl Planner for Pace {
         for step in steps {
             match step {
                 Step::Z { to_mm, feed_mm_min } => self.lift(*to_mm, *feed_mm_min),
-                Step::Dwell { time } => self.wait(*time),
+                Step::Dwell { time } => self.queue.wait(*time),
                 // Outputs that are switched when they are read leave the moves before them running.
-                Step::Output { .. } | Step::Code { m: 68, .. } if self.keys.outputs == Outputs::Immediate => {}
-                Step::Output { .. } | Step::Code { .. } => self.stop(),
+                _ if self.keys.outputs == Outputs::Immediate && step.switches_when_read() => {}
+                Step::Output { .. } | Step::Code { .. } => self.queue.stop(),
             }
         }
     }
 
     fn wait(&mut self, time: f64) {
-        self.stop();
-        self.spend(Limit::Rest, time);
+        self.queue.wait(time);
     }
 
     /// F does not change the speeds of junctions.
@@ -186,23 +142,8 @@ impl Planner for Pace {
     }
 
     fn finish(&mut self) -> Spent {
-        self.stop();
-        let mut limits = std::mem::take(&mut self.spent);
-        limits.retain(|(_, time)| *time > 0.0);
-        limits.sort_by(|a, b| b.1.total_cmp(&a.1));
-        Spent { time: limits.iter().map(|(_, time)| time).sum(), limits }
+        self.queue.finish()
     }
-}
-
-fn norm(ways: [f64; 4]) -> f64 {
-    ways.iter().map(|way| way * way).sum::<f64>().sqrt()
-}
-
-/// Greatest value along a direction at which no axis exceeds its own, and the letter of the axis that limits it.
-fn slowest(along: [f64; 4], most: [f64; 4]) -> (f64, char) {
-    let shares =
-        along.iter().zip(most).map(|(share, most)| if *share == 0.0 { f64::INFINITY } else { most / share.abs() });
-    shares.zip(AXES).fold((f64::INFINITY, 'x'), |least, next| if next.0 < least.0 { next } else { least })
 }
 
 /// Square of the greatest speed between two directions.
@@ -317,11 +258,11 @@ mod tests {
         let mut pace = pace();
         pace.go(&arc);
         // floor(0.5 r t / sqrt(d (2 r - d))), as the firmware counts them.
-        assert_eq!(pace.blocks.len(), 83);
+        assert_eq!(pace.queue.blocks.len(), 83);
         let turn = deg(sweep) / 83.0;
         let chord = 2.0 * radius * (0.5 * sweep / 83.0).sin();
-        assert!(pace.blocks.iter().all(|block| (block.length - chord.hypot(turn)).abs() < 1e-9));
-        assert_eq!(pace.blocks.iter().filter(|block| block.is_line).count(), 1);
+        assert!(pace.queue.blocks.iter().all(|block| (block.length - chord.hypot(turn)).abs() < 1e-9));
+        assert_eq!(pace.queue.blocks.iter().filter(|block| block.is_line).count(), 1);
         let spent = pace.finish();
         assert!((spent.time - 0.78).abs() < 0.02, "{spent:?}");
         assert!(spent.time >= arc.length / 100.0 * 0.9999);

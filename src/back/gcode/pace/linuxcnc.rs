@@ -3,11 +3,13 @@
 //! The planner plans each move from rest to rest and starts the next one while the last one decelerates (a parabolic blend).
 //! For that it halves the acceleration, and it slows down at kinks so that the path deviates by at most G64 P. It makes no
 //! blend arcs in this case, so the speed of a piece never exceeds sqrt(a l). Kinks are defined by the acceleration: that of an
-//! arc leans towards its centre at its start, more so for a higher F. The rules are those of the planner (`tp.c`, `tc.c`,
+//! arc leans towards its centre at its start, more so for a higher F. The time that a planner with a look-ahead would save is
+//! that beyond the one of the same moves from kink to kink. The rules are those of the planner (`tp.c`, `tc.c`,
 //! `blendmath.c`, `emccanon.cc`) as closed-form formulas; cycles are not simulated.
 
-use super::planner::{Move, Planner};
-use crate::back::target::Spent;
+use super::buffer::{Block, Supply, durations};
+use super::planner::{AXES, Move, Planner, sorted, spend};
+use crate::back::target::{Limit, Spent};
 use crate::geom::{Vector, left};
 use crate::machine::gcode::Step;
 use crate::machine::{Job, Limits};
@@ -31,8 +33,9 @@ pub(super) struct Pace {
     limits: [[Limits; 3]; 2],
     blend: Option<f64>,
     cycle: f64,
-    /// Accumulated time up to the last rest, s.
+    /// Accumulated time up to the last rest, s, in all and by limit.
     time: f64,
+    spent: Vec<(Limit, f64)>,
     /// Moves that blend into each other, since the last rest.
     moves: Vec<Planned>,
 }
@@ -43,6 +46,8 @@ struct Planned {
     length: f64,
     /// Maximum speed, mm/s.
     speed: f64,
+    /// Limit of the speed, and of the acceleration.
+    limits: [Limit; 2],
     /// Acceleration along the path, mm/s2, halved to allow for blending.
     acceleration: f64,
     /// Directions of the acceleration at its ends.
@@ -57,6 +62,7 @@ impl Pace {
             blend: profile.gcode.blend_mm,
             cycle: profile.time.period(),
             time: 0.0,
+            spent: Vec::new(),
             moves: Vec::new(),
         }
     }
@@ -72,29 +78,41 @@ impl Pace {
             return None;
         }
         let slowest = |limit: fn(&Limits) -> f64| {
-            let along_arc = || length / limit(&limits[0]).min(limit(&limits[1]));
-            let linear =
-                if straight { (ways[0] / limit(&limits[0])).max(ways[1] / limit(&limits[1])) } else { along_arc() };
-            length / linear.max(ways[2] / limit(&limits[2]))
+            let ways = if straight { [ways[0], ways[1], ways[2]] } else { [length, length, ways[2]] };
+            let longest = |axis: usize| (ways[axis] / limit(&limits[axis]), AXES[axis]);
+            let later = |a: (f64, char), b: (f64, char)| if b.0 > a.0 { b } else { a };
+            let (time, axis) = later(later(longest(0), longest(1)), longest(2));
+            (length / time, axis)
         };
-        let (mut most, mut acceleration) = (slowest(|l| l.speed), slowest(|l| l.acceleration));
+        let ((mut most, axis), (whole, ramp)) = (slowest(|l| l.speed), slowest(|l| l.acceleration));
+        let (mut limit, mut acceleration) = (Limit::Speed(axis), whole);
         if self.blend.is_some() {
             acceleration *= BLEND_SHARE;
         }
         let mut lean = 0.0;
         if !straight {
-            most = most.min((NORMAL_SHARE * slowest(|l| l.acceleration) / step.curvature.abs()).sqrt());
+            let bent = (NORMAL_SHARE * whole / step.curvature.abs()).sqrt();
+            (most, limit) = if bent < most { (bent, Limit::Acceleration(ramp)) } else { (most, limit) };
             lean = (LEAN_SPEED_SHARE * step.feed.speed.min(most)).powi(2) * step.curvature / acceleration;
             acceleration *= ALONG_SHARE;
         }
-        let speed = step.feed.speed.min(most).min(length / (CYCLES_MIN * self.cycle));
+        let limit = if step.feed.speed <= most { step.feed.limit } else { limit };
+        let [asked, shortest] = [step.feed.speed.min(most), length / (CYCLES_MIN * self.cycle)];
+        let (speed, limit) = if shortest < asked { (shortest, Limit::Blocks) } else { (asked, limit) };
         let [start, end] = step.along;
         let start = (start + left(start) * lean).try_normalize(0.0).unwrap_or_default();
-        Some(Planned { length, speed, acceleration, directions: [start, end] })
+        Some(Planned {
+            length,
+            speed,
+            limits: [limit, Limit::Acceleration(ramp)],
+            acceleration,
+            directions: [start, end],
+        })
     }
 
     /// Adds the time of the moves up to a rest.
     fn rest(&mut self) {
+        let start = self.time;
         // Speed and distance that the previous move has already given to this one.
         let (mut begun, mut way) = (0.0, 0.0);
         for (i, now) in self.moves.iter().enumerate() {
@@ -112,7 +130,30 @@ impl Pace {
                 way = (0.5 * begun * time).min(0.5 * next.length);
             }
         }
+        self.attribute(self.time - start);
         self.moves.clear();
+    }
+
+    /// Divides the time of the moves since the last rest, s, among what limits them.
+    fn attribute(&mut self, time: f64) {
+        let block = |(i, planned): (usize, &Planned)| {
+            let before = i.checked_sub(1).map(|before| &self.moves[before]);
+            let entry = before
+                .zip(self.blend)
+                .map_or(0.0, |(before, blend)| at_kink([before, planned], blend).min(before.speed).min(planned.speed));
+            let Planned { length, speed, acceleration, .. } = *planned;
+            Block { length, speed, acceleration, entry: entry * entry, is_line: true }
+        };
+        let blocks: Vec<Block> = self.moves.iter().enumerate().map(block).collect();
+        let free = durations(&blocks, Supply::UNLIMITED);
+        // A blend may be a little faster than its kink.
+        let share = (time / free.iter().sum::<f64>()).min(1.0);
+        for (planned, free) in self.moves.iter().zip(&free) {
+            let level = planned.length / planned.speed;
+            spend(&mut self.spent, planned.limits[0], share * level);
+            spend(&mut self.spent, planned.limits[1], share * (free - level));
+        }
+        spend(&mut self.spent, Limit::LookAhead, time - share * free.iter().sum::<f64>());
     }
 }
 
@@ -131,6 +172,7 @@ impl Planner for Pace {
     fn wait(&mut self, time: f64) {
         self.rest();
         self.time += time;
+        spend(&mut self.spent, Limit::Rest, time);
     }
 
     /// A higher F would slow an arc down at its start.
@@ -148,7 +190,7 @@ impl Planner for Pace {
 
     fn finish(&mut self) -> Spent {
         self.rest();
-        Spent { time: self.time, limits: Vec::new() }
+        Spent { time: self.time, limits: sorted(std::mem::take(&mut self.spent)) }
     }
 }
 
@@ -158,15 +200,19 @@ fn blended([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
     let [now, then] = [this, next].map(reached);
     let longest = (this.length / now).min(next.length / then);
     let time = longest.min((now / this.acceleration).max(then / next.acceleration));
-    let speed = now.min(time * this.acceleration);
+    now.min(time * this.acceleration).min(at_kink([this, next], tolerance))
+}
+
+/// Speed at a kink at which the corner is cut by a tolerance, mm/s; infinite if there is no kink.
+fn at_kink([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
     // Half the angle between one direction and the reverse of the other: a right angle without a kink.
     let straight = this.directions[1].dot(&next.directions[0]).clamp(-1.0, 1.0);
     let cosine = (0.5 * (1.0 - straight)).sqrt();
     if tolerance > 0.0 && cosine > KINK_MIN {
         // Decelerating from v takes v^2 / (2 a), of which the corner may be cut by the tolerance.
-        return speed.min(2.0 * (this.acceleration * tolerance / cosine).sqrt());
+        return 2.0 * (this.acceleration * tolerance / cosine).sqrt();
     }
-    speed
+    f64::INFINITY
 }
 
 #[cfg(test)]

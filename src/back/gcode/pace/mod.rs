@@ -7,6 +7,8 @@ mod buffer;
 mod grbl;
 mod linuxcnc;
 mod planner;
+mod queue;
+mod reprap;
 
 pub(super) use self::planner::{Feed, Move, Planner};
 use crate::machine::Job;
@@ -17,5 +19,6 @@ pub(super) fn planner(job: &Job) -> Box<dyn Planner> {
     match job.profile.gcode.planner {
         gcode::Planner::Linuxcnc => Box::new(linuxcnc::Pace::new(job)),
         gcode::Planner::Grbl => Box::new(grbl::Pace::new(job)),
+        gcode::Planner::Reprap => Box::new(reprap::Pace::new(job)),
     }
 }

@@ -4,6 +4,9 @@ use crate::back::target::{Limit, Spent};
 use crate::geom::Vector;
 use crate::machine::gcode::Step;
 
+/// Letters of the axes, in the order of their distances.
+pub(super) const AXES: [char; 3] = ['x', 'y', 'c'];
+
 /// A move of the axes, as written in the program.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::back::gcode) struct Move {
@@ -49,4 +52,19 @@ pub(in crate::back::gcode) trait Planner {
     fn best_speed(&self, length: f64, curvature: f64) -> f64;
     /// Brings the axes to rest and returns the time since the start.
     fn finish(&mut self) -> Spent;
+}
+
+/// Adds a time to that of a limit, s.
+pub(super) fn spend(spent: &mut Vec<(Limit, f64)>, limit: Limit, time: f64) {
+    match spent.iter_mut().find(|(known, _)| *known == limit) {
+        Some((_, sum)) => *sum += time,
+        None => spent.push((limit, time)),
+    }
+}
+
+/// Limits that cost time, the greatest first.
+pub(super) fn sorted(mut spent: Vec<(Limit, f64)>) -> Vec<(Limit, f64)> {
+    spent.retain(|(_, time)| *time > 0.0);
+    spent.sort_by(|a, b| b.1.total_cmp(&a.1));
+    spent
 }

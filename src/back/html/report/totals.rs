@@ -68,12 +68,13 @@ pub(super) fn section(about: &About, out: &mut Markup) {
         let moved = if about.windows().is_some() { " without the time in which the cloth is moved on" } else { "" };
         let played = clock(about.time(sums.total())) + moved;
         match about.outcome.controller {
-            Some(Estimate { spent, moves, planner }) => {
+            Some(Estimate { spent, moves, planner, chosen, .. }) => {
                 let time = clock(spent.time);
                 rows.push((
                     "Time on the controller",
                     format!("about {time} by {planner}'s planner, {moves} arcs and lines"),
                 ));
+                rows.extend(chosen.iter().map(|chosen| ("Moves", format!("{}, the fastest", chosen.name))));
                 let share = |part: f64| format!("{} %", fixed(PERCENT * part / spent.time, 0));
                 let limits = spent.limits.iter().filter(|(_, part)| *part >= LEAST_SHARE * spent.time);
                 let limits: Vec<String> = limits.map(|(limit, part)| format!("{limit} {}", share(*part))).collect();

@@ -12,12 +12,12 @@ use std::io::{self, BufRead, ErrorKind};
 use std::rc::Rc;
 
 use self::arc::Arc;
-use self::texts::{HEAD, Meaning, Stands, Text, bite, texts};
+use self::texts::{HEADS, Meaning, Stands, Text, bite, texts};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
-use crate::machine::gcode::{FeedCounts, FeedMode, Outputs, SETTLE};
+use crate::machine::gcode::{FeedCounts, FeedMode, Moves, Outputs, SETTLE};
 use crate::units::S_PER_MIN;
 use crate::units::number::exact;
 use crate::verify::axes::crawl::{Asked, Axes};
@@ -54,7 +54,7 @@ pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
     let lines = bytes.split(|&byte| byte == b'\n').map(|line| plain(line.strip_suffix(b"\r").unwrap_or(line)));
     // Blank lines and comments may precede the head.
     let mut asking = lines.skip_while(|line| matches!(line.as_deref(), Some([])));
-    asking.next().flatten().is_some_and(|line| line == HEAD)
+    asking.next().flatten().is_some_and(|line| HEADS.contains(&line.as_slice()))
 }
 
 /// Reason why G-code cannot be verified, and advice; `None` when the bytes do not look like G-code.
@@ -64,7 +64,7 @@ pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     let is_code =
         matches!(line, [b'G' | b'g' | b'N' | b'n', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
     is_code.then(|| {
-        let head = String::from_utf8_lossy(HEAD);
+        let head = String::from_utf8_lossy(HEADS[0]);
         let text = String::from_utf8_lossy(line);
         let first: String = text.trim_end().escape_debug().take(FIRST_CHARS).collect();
         let hint = if first == "%" {
@@ -93,6 +93,8 @@ pub(in crate::verify) struct Places<'a> {
     /// Rest since the last move that is allowed if an output follows it, s.
     settling: f64,
     axes: Axes,
+    /// Meaning of F: that of the profile, or that of the head where the program chooses it.
+    feed_mode: FeedMode,
     /// Number of lines read, and the buffer for the next one.
     lines: u64,
     room: Vec<u8>,
@@ -139,6 +141,7 @@ impl<'a> Places<'a> {
             stands: true,
             settling: 0.0,
             axes: Axes::new(profile),
+            feed_mode: profile.gcode.feed_mode,
             lines: 0,
             room: Vec::new(),
             now,
@@ -232,8 +235,8 @@ impl<'a> Places<'a> {
 
     /// Executes a line in the spelling of the target; on error nothing changes. Messages show the line as it is `written`.
     fn spelled(&mut self, line: &[u8], written: &[u8]) -> Result<(), String> {
-        if let Some(due) = self.due.front() {
-            let is_due = due.is(line);
+        if let Some(due) = self.due.front().cloned() {
+            let is_due = due.is(line) || self.is_mode(&due, line);
             let why = || format!("is {} where `{}` belongs", quoted(written), due.text);
             is_due.then_some(()).ok_or_else(why)?;
             self.due.pop_front();
@@ -252,7 +255,7 @@ impl<'a> Places<'a> {
         if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
         }
-        if let Some((mm, others)) = bite(line, &self.profile.gcode.advance) {
+        if let Some((mm, others)) = bite(line, &self.profile.gcode) {
             self.now.station =
                 self.now.station.checked_add(mm).ok_or("moves the cloth on farther than there is any")?;
             self.obey(Meaning::Event(2), Stands::of(&self.profile.gcode.advance, self.profile))?;
@@ -287,6 +290,14 @@ impl<'a> Places<'a> {
         }
         self.rest(rest);
         Ok(())
+    }
+
+    /// True if a line selects a meaning of F where the head of a program that chooses it selects one; it holds from then on.
+    fn is_mode(&mut self, due: &Expected, line: &[u8]) -> bool {
+        let is_free = self.profile.gcode.moves == Moves::Auto && due.text == self.profile.gcode.feed_mode.code();
+        let mode = FeedMode::ALL.into_iter().find(|mode| is_free && Expected::new(mode.code()).is(line));
+        self.feed_mode = mode.unwrap_or(self.feed_mode);
+        mode.is_some()
     }
 
     /// Rests the axes for a time, s. As long as they need to stand, that is no rest beyond the profile's if an output follows.
@@ -409,7 +420,7 @@ impl<'a> Places<'a> {
         if code == 0.0 && from.knife {
             return Err("is a rapid move while the knife is down".to_owned());
         }
-        if let Some(letter) = words.foreign_to(code) {
+        if let Some(letter) = words.foreign_to(code, self.profile.gcode.dialect) {
             return Err(format!("has {letter}, which such a move has not"));
         }
         let feed = if code == 0.0 { f64::INFINITY } else { needed(words.f, 'F')? };
@@ -424,6 +435,9 @@ impl<'a> Places<'a> {
         } else {
             None
         };
+        if arc.is_some() && self.feed_mode == FeedMode::G93 && !self.profile.gcode.divides_inverse_time() {
+            return Err("is an arc in inverse time, which this controller mistimes".to_owned());
+        }
         let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
         let by_deviation = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
         let steps = by_deviation.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
@@ -495,7 +509,7 @@ impl<'a> Places<'a> {
         let size = if length > 0.0 { length } else { turned.abs() };
         let sure = ((size - rounding) / size.max(f64::MIN_POSITIVE)).max(SURE_MIN);
         let keys = &self.profile.gcode;
-        let pace = match (keys.feed_mode, keys.feed_counts) {
+        let pace = match (self.feed_mode, keys.feed_counts) {
             (FeedMode::G93, FeedCounts::Linear | FeedCounts::All) => feed / S_PER_MIN,
             (FeedMode::G94, FeedCounts::Linear) => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
             (FeedMode::G94, FeedCounts::All) => feed / S_PER_MIN / length.hypot(turned).max(f64::MIN_POSITIVE),

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use crate::machine::MachineProfile;
-use crate::machine::gcode::Step;
+use crate::machine::gcode::{Dialect, Gcode, Step};
 use crate::units::number::exact;
 use crate::verify::program::number::whole;
 use crate::verify::program::spelling::Expected;
 
-/// First line of every such program, without its line number.
-pub(super) const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
+/// First lines of such programs, without their line numbers: of RS274/NGC, and of `RepRapFirmware`.
+pub(super) const HEADS: [&[u8]; 2] = [b"G17 G21 G40 G80 G90 G91.1", b"G17 G21 G90"];
 /// Numbers of the drills of a machine.
 const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 
@@ -53,10 +53,14 @@ impl Stands {
 pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
     let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
-    let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(HEAD), keys.header, keys.feed_mode.code());
+    let first = match keys.dialect {
+        Dialect::Rs274 => HEADS[0],
+        Dialect::Reprap => HEADS[1],
+    };
+    let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(first), keys.header, keys.feed_mode.code());
     let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning, stands: Stands::default() };
     let steps = |steps: &[Step], drill: u8, meaning| {
-        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill.into()))).collect();
+        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill.into(), keys.dialect))).collect();
         Text { lines, meaning, stands: Stands::of(steps, profile) }
     };
     let drills = DRILLS.flat_map(|tool| {
@@ -81,12 +85,12 @@ pub(super) fn lines_of(text: &str) -> Vec<Rc<Expected>> {
 }
 
 /// Advance of the cloth given by the first line of an advance, mm, and the lines that must follow; `None` for any other line.
-pub(super) fn bite(line: &[u8], steps: &[Step]) -> Option<(u32, Vec<Rc<Expected>>)> {
-    let (first, others) = steps.split_first().filter(|(first, _)| first.has_blank())?;
+pub(super) fn bite(line: &[u8], keys: &Gcode) -> Option<(u32, Vec<Rc<Expected>>)> {
+    let (first, others) = keys.advance.split_first().filter(|(first, _)| first.has_blank())?;
     let text = first.to_string();
     let (before, behind) = text.split_once('#')?;
     let told = line.strip_prefix(before.as_bytes())?.strip_suffix(behind.as_bytes())?;
     let mm = whole(told)?;
-    let of_step = |step: &Step| Rc::new(Expected::of_step(step, mm.into()));
+    let of_step = |step: &Step| Rc::new(Expected::of_step(step, mm.into(), keys.dialect));
     of_step(first).is(line).then(|| (mm, others.iter().map(of_step).collect()))
 }
