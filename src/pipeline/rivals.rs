@@ -91,7 +91,11 @@ impl<'a> Rivals<'a> {
                         let (writer, out) = rival.parts(out);
                         writer.body(toolpath, &arcs, out)?;
                     }
-                    Err(unfit) => unfit.iter().for_each(|run| count(&mut rival.refused, (self.target.unfit)(run))),
+                    Err(unfit) => {
+                        for run in &unfit {
+                            count(&mut rival.refused, (self.target.unfit)(run));
+                        }
+                    }
                 }
             }
         }

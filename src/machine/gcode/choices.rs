@@ -7,7 +7,7 @@ use super::step::Step;
 use super::{Dialect, FeedCounts, FeedMode, Gcode, Moves};
 
 /// Fractions of the permitted deviations of chords that are tried.
-const CHORD_SHARES: [f64; 3] = [1.0, 0.5, 0.25];
+const CHORD_SHARES: [f64; 2] = [1.0, 0.5];
 
 impl Gcode {
     /// The choices, each as a controller with fixed moves; the first one of equally fast ones is preferred. There is always one.
@@ -77,15 +77,15 @@ mod tests {
         use FeedMode::{G93, G94};
         let auto = Gcode { moves: Moves::Auto, chord_mm: 0.008, ..Gcode::default() };
         check(&Gcode { moves: Moves::Fixed, ..auto.clone() }, &[(true, G94, 0.008)]);
-        check(&auto, &[(true, G94, 0.008), (false, G94, 0.008), (false, G94, 0.004), (false, G94, 0.002)]);
+        check(&auto, &[(true, G94, 0.008), (false, G94, 0.008), (false, G94, 0.004)]);
         let inverse = Gcode { feed_mode: G93, ..auto.clone() };
-        check(&inverse, &[(true, G93, 0.008), (false, G93, 0.008), (false, G93, 0.004), (false, G93, 0.002)]);
+        check(&inverse, &[(true, G93, 0.008), (false, G93, 0.008), (false, G93, 0.004)]);
         let grbl = Gcode { feed_counts: FeedCounts::All, ..inverse };
-        check(&grbl, &[(true, G94, 0.008), (false, G93, 0.008), (false, G93, 0.004), (false, G93, 0.002)]);
+        check(&grbl, &[(true, G94, 0.008), (false, G93, 0.008), (false, G93, 0.004)]);
         // A controller that knows no arcs is given none.
-        check(&Gcode { arcs: false, ..auto }, &[(false, G94, 0.008), (false, G94, 0.004), (false, G94, 0.002)]);
+        check(&Gcode { arcs: false, ..auto }, &[(false, G94, 0.008), (false, G94, 0.004)]);
         let slow = "G1 Z-2 F600".parse::<Step>().expect("a step");
         let plunge = Gcode { arcs: false, knife_down: vec![slow], ..grbl };
-        check(&plunge, &[(false, G94, 0.008), (false, G94, 0.004), (false, G94, 0.002)]);
+        check(&plunge, &[(false, G94, 0.008), (false, G94, 0.004)]);
     }
 }

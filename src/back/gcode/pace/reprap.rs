@@ -196,7 +196,9 @@ mod tests {
 
     fn time(moves: &[Move]) -> f64 {
         let mut pace = pace();
-        moves.iter().for_each(|step| pace.go(step));
+        for step in moves {
+            pace.go(step);
+        }
         pace.finish().time
     }
 
