@@ -8,6 +8,7 @@ use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::declaration::{Declaration, Total};
 use crate::ir::{self, Arcs, Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
+use crate::machine::gcode::Planner;
 use crate::source::Source;
 
 /// Output of a target: a file or a buffer; a target may go back to fill in a header.
@@ -174,11 +175,11 @@ pub struct Estimate {
     pub spent: Spent,
     /// Number of arcs and lines with the knife down.
     pub moves: usize,
-    /// Name of the planner whose time it is.
-    pub planner: &'static str,
-    /// Number of arcs whose chords are coarser than permitted, because the decimals tell no finer ones.
+    /// Planner whose time it is.
+    pub planner: Planner,
+    /// Number of arcs whose chords deviate more than permitted, because positions have too few decimals for finer ones.
     pub coarse: usize,
-    /// Other choices of moves; `None` if the profile fixes them.
+    /// Chosen moves and the alternatives; `None` if the profile fixes the moves.
     pub chosen: Option<Chosen>,
 }
 
@@ -187,8 +188,8 @@ pub struct Estimate {
 pub struct Chosen {
     /// Name of the choice.
     pub name: String,
-    /// Other choices with their durations, s, the fastest first; `None` if it cannot be cut with such moves, or only with
-    /// chords that the decimals do not tell.
+    /// Other choices with their durations, s, the fastest first; `None` if the file cannot be cut with them within the permitted
+    /// deviations.
     pub others: Vec<(String, Option<f64>)>,
 }
 
@@ -208,6 +209,8 @@ pub enum Limit {
     Feed,
     /// F, as the number of moves a second that the profile allows.
     Blocks,
+    /// Least number of cycles that a controller gives each move.
+    Cycles,
     /// Greatest speed of an axis, by its letter.
     Speed(char),
     /// Greatest acceleration of an axis, by its letter: ramps and kinks.
@@ -225,6 +228,7 @@ impl fmt::Display for Limit {
         match self {
             Self::Feed => out.write_str("feed"),
             Self::Blocks => out.write_str("moves a second"),
+            Self::Cycles => out.write_str("controller cycles"),
             Self::Speed(axis) => write!(out, "speed of {axis}"),
             Self::Acceleration(axis) => write!(out, "acceleration of {axis}"),
             Self::LookAhead => out.write_str("look-ahead"),

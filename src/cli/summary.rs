@@ -10,7 +10,9 @@ use crate::machine::gcode::Planner;
 use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle, ToolKind};
-use crate::pipeline::{Axes, Common, Controller, Limit, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, rules};
+use crate::pipeline::{
+    Axes, Common, Controller, Limit, Peak, Peaks, Report, Savings, Sides, Spent, TIE_SHARE, Verdict, rules,
+};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
@@ -130,28 +132,49 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
 /// Time on a controller that plans for itself, what limits it, and keys whose change would save a relevant part of it.
 fn planned_there(controller: &Controller, line: &mut impl FnMut(&str, String)) {
     let Controller { time_s, moves, planner, chosen, others, limits } = controller;
-    line("controller", format!("about {} by {planner}'s planner, {moves} arcs and lines", duration(*time_s)));
+    let title = planner.title();
+    line("controller", format!("about {} by {title}'s planner, {moves} arcs and lines", duration(*time_s)));
     let parts: Vec<(String, f64)> = limits.iter().map(|part| (part.limit.to_string(), part.time_s)).collect();
     let limited = shares(&parts, *time_s);
     if !limited.is_empty() {
         line("", limited);
     }
     if let Some(chosen) = chosen {
-        line("", format!("{chosen}, the fastest of {}", others.len() + 1));
-        for (other, time) in others.iter().filter_map(|other| Some((&other.moves, other.time_s?))).take(1) {
-            line("", format!("{other}: {} s more", fixed(time - time_s, 1)));
+        let timed: Vec<(&str, f64)> =
+            others.iter().filter_map(|other| Some((other.moves.as_str(), other.time_s?))).collect();
+        line(
+            "",
+            if timed.is_empty() { chosen.clone() } else { format!("{chosen}, the fastest of {}", timed.len() + 1) },
+        );
+        if let Some(&(next, time)) = timed.first() {
+            line("", format!("{next}: {}", later(time, *time_s)));
         }
     }
     for part in limits.iter().filter(|part| part.time_s >= TELLING_SHARE * time_s) {
-        let what = match part.limit {
-            Limit::LookAhead if *planner == Planner::Grbl.title() => "more of gcode.planner_blocks",
-            Limit::Late => "more of gcode.max_blocks_s",
-            Limit::LookAhead | Limit::Feed | Limit::Blocks | Limit::Speed(_) | Limit::Acceleration(_) | Limit::Rest => {
-                continue;
-            }
-        };
+        let Some(what) = advice(part.limit, *planner) else { continue };
         let share = 100.0 * part.time_s / time_s;
         line("", format!("{what} would save about {} s, {} %", fixed(part.time_s, 1), fixed(share, 0)));
+    }
+}
+
+/// Duration of the next best moves in comparison with that of the chosen ones, s.
+fn later(other: f64, chosen: f64) -> String {
+    if other < chosen * (1.0 + TIE_SHARE) {
+        "as fast".to_owned()
+    } else {
+        format!("{} s more", fixed(other - chosen, 1))
+    }
+}
+
+/// Change of the profile that reduces the time of a limit; `None` if no single key does.
+fn advice(limit: Limit, planner: Planner) -> Option<&'static str> {
+    match (limit, planner) {
+        (Limit::LookAhead, Planner::Grbl | Planner::Reprap) => Some("more of gcode.planner_blocks"),
+        (Limit::Late, Planner::Grbl | Planner::Reprap | Planner::Linuxcnc) => Some("more of gcode.max_blocks_s"),
+        (Limit::LookAhead, Planner::Linuxcnc)
+        | (Limit::Feed | Limit::Blocks | Limit::Cycles | Limit::Speed(_) | Limit::Acceleration(_) | Limit::Rest, _) => {
+            None
+        }
     }
 }
 
@@ -380,6 +403,14 @@ mod tests {
             },
             ..Report::of(&Marker::default(), "iso")
         }
+    }
+
+    #[test]
+    fn equally_fast_moves_are_not_said_to_take_longer() {
+        let said = [[99.99, 100.0], [100.01, 100.0], [101.0, 100.0]].map(|[other, chosen]| later(other, chosen));
+        assert_eq!(said, ["as fast", "as fast", "1.0 s more"]);
+        assert_eq!(advice(Limit::LookAhead, Planner::Reprap), Some("more of gcode.planner_blocks"));
+        assert_eq!(advice(Limit::LookAhead, Planner::Linuxcnc), None);
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub const SHIPPED: &[Shipped] = &[
     },
     Shipped {
         name: "reprap",
-        about: "RepRapFirmware 3.5: arcs or lines, whatever is faster, rotary axis A, knife at Z",
+        about: "RepRapFirmware 3.5: arcs or lines, whichever is faster, rotary axis A, knife at Z",
         text: include_str!("shipped/reprap.toml"),
     },
 ];

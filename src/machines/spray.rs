@@ -167,6 +167,6 @@ fn judge(
     let audit = pipeline::audited(source, input.dialect, reading, job);
     let verdict = judged(program.bytes, &input, job, audit)?;
     let mut told = pipeline::told(&verdict, &input.marker, source, job);
-    pipeline::quote(&mut told, program.bytes)?;
+    pipeline::quote(&mut told, program.bytes, job)?;
     Ok(Some(Explained { verdict, told }))
 }

@@ -57,15 +57,15 @@ pub fn judge_program(
     let marker = &input.marker;
     let verdict = judge(Asked { source, marker, ground: None, declared, job }, &audit, program)?;
     let mut told = told(&verdict, marker, source, job);
-    quote(&mut told, program)?;
+    quote(&mut told, program, job)?;
     Ok(Some(Explained { verdict, told }))
 }
 
-/// Reason that a file is no program that can be judged, by its first bytes, and what to do about it; `None` when it is one.
-pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
+/// Reason that a file is no program that can be judged for a job, by its first bytes, and what to do about it; `None` when it is one.
+pub fn foreign(file: &mut dyn Medium, job: &Job) -> io::Result<Option<[String; 2]>> {
     file.rewind()?;
     let mut file = BufReader::with_capacity(BLOCK, file);
-    if verify::spray::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file) }
+    if verify::spray::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file, &job.profile) }
 }
 
 /// Input of a judgement.
@@ -91,7 +91,7 @@ pub(super) fn judge(
 ) -> io::Result<Verdict> {
     program.rewind()?;
     let mut input = BufReader::with_capacity(BLOCK, program);
-    let mut verdict = match verify::kind(&mut input) {
+    let mut verdict = match verify::kind(&mut input, &job.profile) {
         Some(Kind::CutterFile) => {
             let mut bytes = Vec::new();
             input.read_to_end(&mut bytes)?;

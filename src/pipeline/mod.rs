@@ -12,6 +12,7 @@ mod overreach;
 mod place;
 mod product;
 mod program;
+mod refusals;
 mod refused;
 mod report;
 mod rivals;
@@ -35,6 +36,7 @@ pub use product::{Medium, Product};
 pub use report::{
     Axes, Common, Controller, Drawn, Estimated, Limited, Lines, Notches, Other, Peak, Peaks, Program, Report, Sides,
 };
+pub use rivals::TIE_SHARE;
 pub use rounded::significant;
 pub use savings::Savings;
 pub use spent::Spent;

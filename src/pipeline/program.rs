@@ -7,8 +7,9 @@ use rayon::prelude::*;
 
 use super::advance::Advance;
 use super::product::Medium;
+use super::refusals::Refusals;
 use super::report::{Axes, Program, Sides};
-use super::rivals::{Rivals, count};
+use super::rivals::Rivals;
 use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
@@ -180,10 +181,8 @@ pub(super) fn write(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
     let job = context.job;
-    let mut refused = Vec::new();
-    for refusal in sinks.iter().flat_map(|sink| sink.refusals(context)) {
-        count(&mut refused, refusal);
-    }
+    let mut refused = Refusals::default();
+    sinks.iter().flat_map(|sink| sink.refusals(context)).for_each(|refusal| refused.add(refusal));
     let interpolations = sinks.iter().flat_map(Sink::interpolations).collect();
     let motion = motion || sinks.iter().any(Sink::needs_motion);
     for Sink { form, out } in &mut *sinks {
@@ -232,8 +231,8 @@ struct Writer<'w, 's, 'c> {
     tally: Tally,
     /// Deviations of the program from the drawing.
     declared: Vec<Declaration>,
-    /// Features that a target cannot express: the first of each kind in the file, and the number of cuts or holes.
-    refused: Vec<(Diagnostic, usize)>,
+    /// Features that a target cannot express.
+    refused: Refusals,
 }
 
 impl Writer<'_, '_, '_> {
@@ -288,16 +287,7 @@ impl Writer<'_, '_, '_> {
                 rivals.refuse(&mut self.refused);
             }
         }
-        for (first, cuts) in std::mem::take(&mut self.refused) {
-            let Diagnostic { message, span, .. } = &first;
-            let message = match span {
-                Some(span) if cuts > 1 => {
-                    format!("{message}: {cuts} cuts are like that, the first in block {}", span.block)
-                }
-                _ => message.clone(),
-            };
-            diagnostics.push(Diagnostic { message, ..first });
-        }
+        std::mem::take(&mut self.refused).into_diagnostics().for_each(|refusal| diagnostics.push(refusal));
         let mut written = Written { declared: std::mem::take(&mut self.declared), ..Written::default() };
         if let Some(savings) = savings {
             let end = self.planner.finish();

@@ -15,6 +15,7 @@ use crate::ir::declaration::Total;
 use crate::ir::drawing::{Account, LayerLines, LineClass};
 use crate::ir::marker::{NotchForm, NotchKind};
 use crate::ir::{self, Marker};
+use crate::machine::gcode::Planner;
 use crate::machine::{Follow, NotchStyle};
 use crate::spray;
 use crate::units::{MM_PER_M, deg};
@@ -143,8 +144,9 @@ pub struct Controller {
     pub time_s: f64,
     /// Number of arcs and lines with the knife down.
     pub moves: usize,
-    /// Name of the planner whose time it is.
-    pub planner: &'static str,
+    /// Planner whose time it is.
+    #[serde(serialize_with = "titled")]
+    pub planner: Planner,
     /// Moves that were chosen because they are the fastest; absent if the profile fixes them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<String>,
@@ -161,7 +163,7 @@ pub struct Controller {
 pub struct Other {
     /// Their name.
     pub moves: String,
-    /// Likely duration, s; absent if the file cannot be cut with them, or only with chords that the decimals do not tell.
+    /// Likely duration, s; absent if the file cannot be cut with them within the permitted deviations.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "micro_known")]
     pub time_s: Option<f64>,
 }
@@ -193,6 +195,11 @@ impl From<Estimate> for Controller {
         let limits = spent.limits.into_iter().map(|(limit, time_s)| Limited { limit, time_s }).collect();
         Self { time_s: spent.time, moves, planner, chosen, others, limits }
     }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+fn titled<S: Serializer>(planner: &Planner, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(planner.title())
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]

@@ -1,4 +1,4 @@
-//! Programs of one target with different moves, of which the controller is given the fastest.
+//! Candidate programs of one target; the controller is given the fastest.
 //!
 //! Each one is planned once, from the same toolpaths, and its time is that of the planner of the controller. If there is only
 //! one, it is written to its destination at once; several are written aside, and the fastest is copied.
@@ -8,18 +8,18 @@ use std::io::{self, Seek as _};
 
 use tempfile::SpooledTempFile;
 
+use super::refusals::Refusals;
 use crate::back::{ArcTarget, ArcWriter, Choice, Chosen, Context, Estimate, Output};
-use crate::diagnostic::Diagnostic;
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::{Arcs, Toolpath};
 use crate::machine::Job;
 
 /// Size of a program up to which it is kept in memory, bytes; more goes to a temporary file.
 const ASIDE_BYTES: usize = 16 << 20;
-/// Fraction of a time within which two models of one planner agree; a gain below it is none.
-const TIE_SHARE: f64 = 2e-4;
+/// Relative difference between two models of one planner; times that differ by less count as equal.
+pub const TIE_SHARE: f64 = 2e-4;
 
-/// Arcs of each toolpath, or the runs without.
+/// Arcs of each toolpath, or the runs that no arcs fit.
 type Solved = Vec<Result<Arcs, Vec<Unfit>>>;
 
 /// Programs of a target.
@@ -35,8 +35,8 @@ struct Rival<'a> {
     writer: Box<dyn ArcWriter + 'a>,
     /// Its bytes; `None` if they go to the destination.
     aside: Option<SpooledTempFile>,
-    /// Features that it cannot express: the first of each kind, and the number of cuts.
-    refused: Vec<(Diagnostic, usize)>,
+    /// Features that it cannot express.
+    refused: Refusals,
 }
 
 impl Rival<'_> {
@@ -58,7 +58,7 @@ impl<'a> Rivals<'a> {
             job: &choice.job,
             writer: (target.begin)(&Context { job: &choice.job, ..*context }),
             aside: (!is_one).then(|| SpooledTempFile::new(ASIDE_BYTES)),
-            refused: Vec::new(),
+            refused: Refusals::default(),
         };
         Self { target, rivals: choices.iter().map(rival).collect() }
     }
@@ -93,7 +93,7 @@ impl<'a> Rivals<'a> {
                     }
                     Err(unfit) => {
                         for run in &unfit {
-                            count(&mut rival.refused, (self.target.unfit)(run));
+                            rival.refused.add((self.target.unfit)(run));
                         }
                     }
                 }
@@ -103,14 +103,16 @@ impl<'a> Rivals<'a> {
     }
 
     /// Adds the refusals of the preferred program if all programs are refused.
-    pub(super) fn refuse(&mut self, refused: &mut Vec<(Diagnostic, usize)>) {
-        if self.rivals.iter().all(|rival| !rival.refused.is_empty()) {
-            refused.extend(self.rivals.iter_mut().take(1).flat_map(|rival| std::mem::take(&mut rival.refused)));
+    pub(super) fn refuse(&mut self, refused: &mut Refusals) {
+        if self.rivals.iter().all(|rival| !rival.refused.is_empty())
+            && let Some(preferred) = self.rivals.first_mut()
+        {
+            refused.append(&mut preferred.refused);
         }
     }
 
-    /// Ends the programs and gives the fastest to the destination. Programs go first if their decimals tell their chords, and if
-    /// not those that are refused. Of equally fast ones the first is taken.
+    /// Ends the programs and copies the best one to the destination. Programs without a flaw come first, then those with coarse
+    /// chords, then refused ones; within each group the fastest, and the first of equally fast ones.
     pub(super) fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate> {
         let mut estimates = Vec::with_capacity(self.rivals.len());
         for rival in &mut self.rivals {
@@ -135,19 +137,5 @@ impl<'a> Rivals<'a> {
             io::copy(aside, out)?;
         }
         Ok(Estimate { chosen, ..estimates.swap_remove(best) })
-    }
-}
-
-/// Adds a refused cut to the others of its kind.
-pub(super) fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
-    let is_alike = |(first, _): &&mut (Diagnostic, usize)| first.code == cut.code && first.message == cut.message;
-    match refused.iter_mut().find(is_alike) {
-        Some((first, cuts)) => {
-            *cuts += 1;
-            if cut.span < first.span {
-                *first = cut;
-            }
-        }
-        None => refused.push((cut, 1)),
     }
 }

@@ -85,10 +85,10 @@ pub fn told(verdict: &Verdict, marker: &Marker, source: &Source, job: &Job) -> V
 }
 
 /// Quotes the lines of a program that the details refer to, if it has lines.
-pub fn quote(told: &mut [Told], program: &mut dyn Medium) -> io::Result<()> {
+pub fn quote(told: &mut [Told], program: &mut dyn Medium, job: &Job) -> io::Result<()> {
     program.rewind()?;
     let mut program = BufReader::with_capacity(BLOCK, program);
-    if !verify::has_lines(&mut program) {
+    if !verify::has_lines(&mut program, &job.profile) {
         return Ok(());
     }
     let places = told.iter_mut().filter_map(|told| told.line.as_mut());

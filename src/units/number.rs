@@ -134,6 +134,52 @@ pub fn counted(count: usize, noun: &str) -> String {
 mod tests {
     use super::*;
 
+    /// Powers of ten up to a greatest value, each with its neighbours.
+    fn powers(most: u64) -> Vec<u64> {
+        let powers = (0..20).map(|exponent| 10_u64.pow(exponent)).filter(|power| *power < most);
+        powers.flat_map(|power| [power - 1, power, power + 1]).collect()
+    }
+
+    /// Seeded values of every number of digits, up to a greatest one.
+    fn seeded(most: u64) -> Vec<u64> {
+        let mut random = fastrand::Rng::with_seed(59);
+        let value = |_| {
+            let shift = random.u32(..most.ilog2());
+            random.u64(..=most >> shift)
+        };
+        (0..20_000).map(value).collect()
+    }
+
+    #[test]
+    fn integers_have_the_digits_of_the_standard_library() {
+        for value in powers(u64::MAX).into_iter().chain(seeded(u64::MAX)).chain([u64::MAX]) {
+            let mut out = b"x".to_vec();
+            push_integer(&mut out, value);
+            assert_eq!(String::from_utf8(out).expect("ASCII"), format!("x{value}"));
+        }
+    }
+
+    #[test]
+    fn fixed_numbers_have_the_digits_of_the_rounded_integer() {
+        let most = INTEGER_PATH_MAX as u64;
+        for count in powers(most).into_iter().chain(seeded(most)).chain([most]) {
+            for (decimals, power) in POWERS.iter().enumerate() {
+                let value = count as f64 / power;
+                let rounded = (value * power).round() as u64;
+                if rounded > most {
+                    continue;
+                }
+                let digits = format!("{rounded:0>width$}", width = decimals + 1);
+                let (whole, part) = digits.split_at(digits.len() - decimals);
+                let point = if decimals > 0 { "." } else { "" };
+                let expected = format!("{whole}{point}{part}");
+                assert_eq!(fixed(value, decimals as u32), expected, "{value}");
+                let sign = if rounded > 0 { "-" } else { "" };
+                assert_eq!(fixed(-value, decimals as u32), format!("{sign}{expected}"), "{value}");
+            }
+        }
+    }
+
     #[test]
     fn fixed_numbers_have_no_negative_zero() {
         assert_eq!(fixed(-0.000_000_4, 6), "0.000000");

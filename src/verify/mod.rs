@@ -43,7 +43,7 @@ use self::program::{counts, cutter_file, hal, npy, rows};
 use self::simulate::simulate;
 use crate::ir::Finding;
 use crate::ir::verdict::{Verdict, sort};
-use crate::machine::Job;
+use crate::machine::{Job, MachineProfile};
 
 /// Format of a program, recognised by its first bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,30 +56,30 @@ pub enum Kind {
     CutterFile,
 }
 
-/// Format of a program, even a damaged one; `None` for other bytes.
-pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
+/// Format of a program for a machine, even a damaged one; `None` for other bytes.
+pub fn kind(bytes: &mut dyn BufRead, profile: &MachineProfile) -> Option<Kind> {
     if rows::begins(bytes) || npy::begins(bytes) || counts::begins(bytes) || hal::begins(bytes) {
         return Some(Kind::Setpoints);
     }
     let bytes = bytes.fill_buf().unwrap_or_default();
-    if gcode::begins(bytes) {
+    if gcode::begins(bytes, profile.gcode.dialect) {
         return Some(Kind::Positions);
     }
     cutter_file::begins(bytes).then_some(Kind::CutterFile)
 }
 
-/// True if the bytes are a program that consists of lines, not of records.
-pub fn has_lines(bytes: &mut dyn BufRead) -> bool {
-    kind(bytes).is_some() && !npy::begins(bytes) && !counts::begins(bytes)
+/// True if the bytes are a program for a machine that consists of lines, not of records.
+pub fn has_lines(bytes: &mut dyn BufRead, profile: &MachineProfile) -> bool {
+    kind(bytes, profile).is_some() && !npy::begins(bytes) && !counts::begins(bytes)
 }
 
-/// Reason why bytes do not begin like a program that can be verified, and advice; `None` when they do.
-pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> {
-    if kind(bytes).is_some() {
+/// Reason why bytes do not begin like a program for a machine that can be verified, and advice; `None` when they do.
+pub fn foreign(bytes: &mut dyn BufRead, profile: &MachineProfile) -> std::io::Result<Option<[String; 2]>> {
+    if kind(bytes, profile).is_some() {
         return Ok(None);
     }
     let bytes = bytes.fill_buf()?;
-    Ok(gcode::foreign(bytes).or_else(|| rows::foreign(bytes)))
+    Ok(gcode::foreign(bytes, profile.gcode.dialect).or_else(|| rows::foreign(bytes)))
 }
 
 /// Verifies timed setpoints of the targets `csv`, `npy`, `counts` and `hal` against the required cuts.

@@ -125,7 +125,7 @@ fn an_output_that_does_not_wait_for_moves_is_switched_where_the_axes_stand() {
 }
 
 #[test]
-fn a_rest_of_another_dialect_is_none() {
+fn a_rest_spelled_for_another_dialect_is_refused() {
     let room = room();
     for (name, from, to) in [("reprap", "G4 S", "G4 P"), ("fluidnc", "G4 P", "G4 S"), ("linuxcnc", "G4 P", "G4 S")] {
         room.expect(&format!("compile pocket.cut -p {name} -t gcode -o out.ngc --force"), DONE);

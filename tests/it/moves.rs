@@ -7,6 +7,10 @@ use cutc::machine::SHIPPED;
 
 use crate::support::room::{DONE, FAULTY, Room};
 
+/// Relative difference of times that count as equal, as in the manual, and the rounding of times in JSON, s.
+const TIE_SHARE: f64 = 2e-4;
+const ROUNDING_S: f64 = 1e-6;
+
 /// A room with files that bend in different ways: a pocket, a marker, straight notches.
 fn room() -> Room {
     let room = Room::new();
@@ -72,7 +76,7 @@ fn a_chosen_program_is_never_slower_than_with_fixed_moves() {
                     let Some(fixed) = compiled(&room, file, &options) else { continue };
                     tried += 1;
                     assert!(
-                        fixed.chosen.is_none() && auto.time <= fixed.time + 1e-6,
+                        fixed.chosen.is_none() && auto.time <= fixed.time * (1.0 + TIE_SHARE) + ROUNDING_S,
                         "{file} {options}: {auto:?} {fixed:?}"
                     );
                 }
@@ -104,7 +108,7 @@ fn arcs_lines_and_finer_lines_are_chosen_each_where_it_is_the_fastest() {
     ] {
         let told = compiled(&room, file, &format!("{machine} --set gcode.moves=auto")).expect("a program");
         assert_eq!(told.chosen.as_deref(), Some(chosen), "{machine} {file}: {told:?}");
-        let slower = told.others.iter().filter_map(|(_, time)| *time).all(|time| time >= told.time * (1.0 - 2e-4));
+        let slower = told.others.iter().filter_map(|(_, time)| *time).all(|time| time >= told.time * (1.0 - TIE_SHARE));
         assert!(slower, "{told:?}");
     }
 }

@@ -8,7 +8,7 @@ use crate::back::target::{Context, Limit, Output, Spent};
 use crate::geom::{Point, Rotation, Vector, left};
 use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
-use crate::machine::gcode::{Dialect, FeedCounts, FeedMode, SETTLE, Step};
+use crate::machine::gcode::{Dialect, FeedCounts, FeedMode, Planner as Kind, SETTLE, Step};
 use crate::machine::{Job, Mode};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
@@ -75,7 +75,7 @@ pub(super) struct Program<'a> {
     lines: u64,
     /// Number of moves with the knife down.
     pub(super) moves: usize,
-    /// Number of arcs whose chords are coarser than permitted, because the decimals tell no finer ones.
+    /// Number of arcs whose chords deviate more than permitted, because positions have too few decimals for finer ones.
     pub(super) coarse: usize,
     planner: Box<dyn Planner>,
 }
@@ -146,9 +146,9 @@ impl<'a> Program<'a> {
         self.planner.finish()
     }
 
-    /// Name of the planner whose time is estimated.
-    pub(super) fn planned_by(&self) -> &'static str {
-        self.job.profile.gcode.planner.title()
+    /// Planner whose time is estimated.
+    pub(super) fn planned_by(&self) -> Kind {
+        self.job.profile.gcode.planner
     }
 
     /// Writes the lines so far.

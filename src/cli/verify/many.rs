@@ -179,7 +179,7 @@ pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBu
 impl Arguments {
     /// The outcome of one of many programs.
     fn outcome(&self, input: &Input, sources: &Sources, job: &Job) -> anyhow::Result<Outcome> {
-        let mut program = Program::open(&input.path)??;
+        let mut program = Program::open(&input.path, job)??;
         let source = sources.of(input)?;
         let Judged { verdict, mut said } = self.judge(&mut program, source.get(), job)?;
         let (state, worst) = match &verdict {

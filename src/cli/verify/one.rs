@@ -37,7 +37,11 @@ pub(super) struct Judged {
 }
 
 pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyhow::Result<Finished> {
-    let mut program = match Program::open(program)? {
+    let job = match arguments.job()? {
+        Ok(job) => job,
+        Err(refused) => return Ok(refused),
+    };
+    let mut program = match Program::open(program, &job)? {
         Ok(program) => program,
         Err(foreign) => {
             let stdout = match arguments.format {
@@ -48,10 +52,6 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
         }
     };
     let source = files::read(source)?;
-    let job = match arguments.job()? {
-        Ok(job) => job,
-        Err(refused) => return Ok(refused),
-    };
     let Judged { verdict, said } = arguments.judge(&mut program, &source, &job)?;
     let stdout = match (arguments.format, &verdict) {
         (Format::Json, verdict) => verdict::json(verdict.as_ref()),
@@ -66,14 +66,14 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
 }
 
 impl<'a> Program<'a> {
-    /// Opens a file; the inner error is that of a file that is no program.
-    pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
+    /// Opens a file; the inner error is that of a file that is no program for a job.
+    pub(super) fn open(path: &'a Path, job: &Job) -> anyhow::Result<Result<Self, anyhow::Error>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         let target = provenance::target_of(path);
         let mut program = Self { path, file: files::open(path)?, name, target };
         let foreign = match machines::claimant(program.claim()) {
             Some(_) => None,
-            None => pipeline::foreign(&mut program.file).map_err(|error| cannot_read(path, &error))?,
+            None => pipeline::foreign(&mut program.file, job).map_err(|error| cannot_read(path, &error))?,
         };
         let Some([what, hint]) = foreign else { return Ok(Ok(program)) };
         let first = "first comes what `cutc compile`, `cutc sew` or `cutc flow` wrote with a target that is judged, then \

@@ -28,7 +28,7 @@ impl Gcode {
         }
     }
 
-    /// True if it takes the time of arcs in inverse time wrongly.
+    /// True if the controller mistimes arcs in inverse time.
     pub fn mistimes_arcs(&self) -> bool {
         self.arcs && self.feed_mode == FeedMode::G93 && !self.divides_inverse_time()
     }

@@ -32,7 +32,7 @@ pub struct Gcode {
     pub letter: Letter,
     /// True if that axis counts within one turn.
     pub wrapped: bool,
-    /// Who chooses between arcs and lines, their chords, and the meaning of F.
+    /// Policy for arcs or lines, chord length and the meaning of F.
     pub moves: Moves,
     /// True if the axis may turn on arcs.
     pub arcs: bool,
@@ -57,9 +57,9 @@ pub struct Gcode {
     pub junction_deviation_mm: f64,
     /// Deviation of the chords into which it divides arcs.
     pub arc_tolerance_mm: f64,
-    /// Change of the speed of X, Y and Z that a `RepRapFirmware` planner makes at once.
+    /// Greatest instantaneous change of speed of X, Y and Z in a `RepRapFirmware` planner.
     pub jump_mm_s: f64,
-    /// Change of the speed of the axis of the blade that it makes at once.
+    /// Greatest instantaneous change of speed of the axis of the blade in it.
     pub jump_deg_s: f64,
     /// Maximum speed of Z; `None` = moves of Z are not counted.
     #[serde(with = "OrWord::<Off>")]
@@ -107,13 +107,13 @@ impl Gcode {
     }
 }
 
-/// Chooser of the moves of a program.
+/// Policy for the moves of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Moves {
-    /// The profile: its keys hold.
+    /// The keys of the profile are obeyed.
     Fixed,
-    /// The program: the fastest of [`Gcode::choices`] by the planner of the controller.
+    /// The fastest of [`Gcode::choices`], by the planner of the controller, is written.
     Auto,
 }
 

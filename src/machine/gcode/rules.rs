@@ -49,9 +49,10 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     let keys = &profile.gcode;
     let lists = lists(profile);
     let fault = |key: &str, flaw: Flaw| Fault::of_range(&[key], format!("`{key}` has {}", flaw.has), &flaw.hint);
-    let mut faults: Vec<Fault> = lists.iter().filter_map(|list| Some(fault(list.key, flaw_of(list)?))).collect();
+    let mut faults: Vec<Fault> =
+        lists.iter().filter_map(|list| Some(fault(list.key, flaw_of(list, keys.dialect)?))).collect();
     let mut read = |key: &str, text: &str, place: ProgramEnd| {
-        let lines = text::read(text, place);
+        let lines = text::read(text, place, keys.dialect);
         lines.unwrap_or_else(|flaw| {
             faults.push(fault(key, flaw));
             Vec::new()
@@ -59,6 +60,7 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     };
     let header = read("gcode.header", &keys.header, ProgramEnd::Start);
     let footer = read("gcode.footer", &keys.footer, ProgramEnd::End);
+    faults.extend(unknown_blend(keys));
     if faults.is_empty() {
         faults = mixed_up(&lists, &footer);
         faults.extend(lasting(&lists));
@@ -80,7 +82,10 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
 }
 
 /// Fault of a list by itself.
-fn flaw_of(list: &List) -> Option<Flaw> {
+fn flaw_of(list: &List, dialect: Dialect) -> Option<Flaw> {
+    if let Some(flaw) = list.steps.iter().find_map(|step| step.foreign_to(dialect)) {
+        return Some(flaw);
+    }
     let is_wait = |step: &&Step| matches!(step, Step::Code { m, .. } if WAITS.contains(m));
     let is_needed = matches!(list.key, "gcode.knife_down" | "gcode.knife_up");
     match list.of {
@@ -296,6 +301,16 @@ fn unasked(lists: &[List], texts: [(&'static str, Vec<Line>); 2]) -> Vec<Fault> 
     others.into_iter().chain(texts).filter_map(fault).collect()
 }
 
+/// Fault of a tolerance of the path in a dialect without G64.
+fn unknown_blend(keys: &Gcode) -> Option<Fault> {
+    let blend = match keys.dialect {
+        Dialect::Rs274 => return None,
+        Dialect::Reprap => keys.blend_mm?,
+    };
+    let message = format!("`gcode.blend_mm` is {blend} mm, but {} does not know G64", keys.dialect.title());
+    Some(Fault::of_range(&["gcode.blend_mm", "gcode.dialect"], message, "take `gcode.blend_mm = \"off\"`"))
+}
+
 /// Fault of arcs in inverse time on a controller that mistimes them.
 fn mistimed(keys: &Gcode) -> Option<Fault> {
     (keys.moves == Moves::Fixed && keys.mistimes_arcs()).then(|| {
@@ -419,6 +434,31 @@ mod tests {
         check(&[("knife_down", "G0 Z5"), ("knife_up", "G0 Z-2")], &[knife]);
         let drill = "`gcode.drill_up` lifts Z to -7 mm, and `gcode.drill_down` puts it down to -5 mm";
         check(&[("drill_down", "M3 S#, G1 Z-5 F200"), ("drill_up", "G0 Z-7, M5")], &[drill]);
+    }
+
+    #[test]
+    fn steps_are_those_of_the_dialect() {
+        let mut profile = MachineProfile::default();
+        profile.gcode.dialect = Dialect::Reprap;
+        profile.gcode.footer = "M30".to_owned();
+        let found = |profile: &MachineProfile| -> Vec<String> {
+            faults(profile).into_iter().map(|fault| fault.message).collect()
+        };
+        let unknown = |key: &str, step: &str| format!("`gcode.{key}` has {step}, which RepRapFirmware does not know");
+        let expected = [
+            unknown("knife_down", "M64 P0"),
+            unknown("knife_up", "M65 P0"),
+            unknown("drill_down", "M64 P#"),
+            unknown("drill_up", "M65 P#"),
+            "`gcode.stop` has M0, by which RepRapFirmware ends the job".to_owned(),
+            "`gcode.advance` has M1, by which RepRapFirmware ends the job".to_owned(),
+            "`gcode.footer` has M30, by which RepRapFirmware deletes a file".to_owned(),
+            "`gcode.blend_mm` is 0.05 mm, but RepRapFirmware does not know G64".to_owned(),
+        ];
+        assert_eq!(found(&profile), expected);
+        check(&[("stop", "M226")], &["`gcode.stop` has M226, which RS274/NGC does not know"]);
+        let set = "`gcode.advance` has M42 P5 S1, which RS274/NGC does not know";
+        check(&[("advance", "M42 P5 S1, M42 P5 S0")], &[set]);
     }
 
     #[test]

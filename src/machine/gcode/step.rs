@@ -63,32 +63,45 @@ pub(super) struct Form {
     pub(super) example: &'static str,
     /// Effect.
     pub(super) about: &'static str,
+    /// Dialects that have the code with this effect.
+    dialects: &'static [Dialect],
 }
 
 const fn form(code: &'static str, needs: &'static str, example: &'static str, about: &'static str) -> Form {
-    Form { code, needs, takes: "", example, about }
+    Form { code, needs, takes: "", example, about, dialects: Dialect::ALL }
 }
+
+/// Code of one dialect only.
+const fn only(dialects: &'static [Dialect], form: Form) -> Form {
+    Form { dialects, ..form }
+}
+
+const RS274: &[Dialect] = &[Dialect::Rs274];
+const REPRAP: &[Dialect] = &[Dialect::Reprap];
 
 /// All codes that steps may have. Modes, outputs that wait for the next move and codes specific to one controller are excluded.
 pub(super) const FORMS: &[Form] = &[
     form("G0", "Z", "G0 Z-2", "Z moves as fast as it can, mm"),
     form("G1", "ZF", "G1 Z-2 F600", "Z moves at a speed, mm and mm/min"),
     form("G4", "P", "G4 P0.5", "the axes rest, s"),
-    form("M0", "", "M0", "the operator is waited for"),
-    form("M1", "", "M1", "the operator is waited for where optional stops are on"),
+    only(RS274, form("M0", "", "M0", "the operator is waited for")),
+    only(RS274, form("M1", "", "M1", "the operator is waited for where optional stops are on")),
     Form { takes: "S", ..form("M3", "", "M3 S1000", "the spindle turns clockwise, S = its speed") },
     Form { takes: "S", ..form("M4", "", "M4 S1000", "the spindle turns counter-clockwise, S = its speed") },
     form("M5", "", "M5", "the spindle stops"),
-    form("M7", "", "M7", "mist coolant goes on"),
-    form("M8", "", "M8", "flood coolant goes on"),
-    form("M9", "", "M9", "all coolant goes off"),
-    form("M42", "PS", "M42 P0 S1", "an output is set, P = its number, S = its value, 0 to 1"),
-    form("M60", "", "M60", "pallets are changed, and the operator is waited for"),
-    form("M64", "P", "M64 P0", "a digital output goes on, P = its number"),
-    form("M65", "P", "M65 P0", "a digital output goes off, P = its number"),
-    form("M66", "PLQ", "M66 P0 L3 Q10", "an input is waited for, P = its number, L = how, Q = s at the most"),
-    form("M226", "", "M226", "the operator is waited for"),
-    form("M68", "EQ", "M68 E0 Q5", "an analog output is set, E = its number, Q = its value"),
+    only(RS274, form("M7", "", "M7", "mist coolant goes on")),
+    only(RS274, form("M8", "", "M8", "flood coolant goes on")),
+    only(RS274, form("M9", "", "M9", "all coolant goes off")),
+    only(REPRAP, form("M42", "PS", "M42 P0 S1", "an output is set, P = its number, S = its value, 0 to 1")),
+    only(RS274, form("M60", "", "M60", "pallets are changed, and the operator is waited for")),
+    only(RS274, form("M64", "P", "M64 P0", "a digital output goes on, P = its number")),
+    only(RS274, form("M65", "P", "M65 P0", "a digital output goes off, P = its number")),
+    only(
+        RS274,
+        form("M66", "PLQ", "M66 P0 L3 Q10", "an input is waited for, P = its number, L = how, Q = s at the most"),
+    ),
+    only(REPRAP, form("M226", "", "M226", "the operator is waited for")),
+    only(RS274, form("M68", "EQ", "M68 E0 Q5", "an analog output is set, E = its number, Q = its value")),
 ];
 
 /// Hint for a list of steps for a tool without any that acts.
@@ -105,7 +118,7 @@ const WAIT_MAX: f64 = 4.0;
 /// Shortest rest after which the axes surely stand, s: `FluidNC` takes G4 in whole ms and does not wait for 0.
 pub const SETTLE: f64 = 0.01;
 /// Greatest number in other words; it exceeds every position, speed and time of a machine.
-const NUMBER_MAX: f64 = 1e6;
+pub(super) const NUMBER_MAX: f64 = 1e6;
 
 impl Step {
     /// Step with a number in place of `#`: that of a drill, or the advance of the cloth in mm.
@@ -144,6 +157,26 @@ impl Step {
             (Self::Dwell { time }, Dialect::Reprap) => format!("G4 S{}", Number::Plain(*time)),
             _ => self.to_string(),
         }
+    }
+
+    /// Flaw of a step that a dialect does not have.
+    pub(super) fn foreign_to(&self, dialect: Dialect) -> Option<Flaw> {
+        let code = match self {
+            Self::Output { on: true, .. } => "M64".to_owned(),
+            Self::Output { on: false, .. } => "M65".to_owned(),
+            Self::Z { feed_mm_min: None, .. } => "G0".to_owned(),
+            Self::Z { feed_mm_min: Some(_), .. } => "G1".to_owned(),
+            Self::Dwell { .. } => "G4".to_owned(),
+            Self::Code { m, .. } => format!("M{m}"),
+        };
+        let is_known = FORMS.iter().any(|form| form.code == code && form.dialects.contains(&dialect));
+        (!is_known).then(|| {
+            let has = match dialect.other_effect(&code) {
+                Some(effect) => format!("{self}, by which {effect}"),
+                None => format!("{self}, which {} does not know", dialect.title()),
+            };
+            Flaw::new(has, other_codes(dialect))
+        })
     }
 
     /// True if it contains `#`.
@@ -228,6 +261,18 @@ fn checked(word: Word, form: &Form) -> Result<(), Flaw> {
         'Q' if is("M66") && number <= 0.0 => flaw(", which is no time", "Q of M66 is above 0, in seconds"),
         _ if number.abs() > NUMBER_MAX => flaw(", which is beyond every machine", "is it mistyped?"),
         _ => Ok(()),
+    }
+}
+
+/// Hint for a code of another dialect.
+fn other_codes(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::Rs274 => {
+            "M64 P and M65 P switch an output, M0 waits for the operator; M42 and M226 need `gcode.dialect = \"reprap\"`"
+        }
+        Dialect::Reprap => {
+            "M42 P S sets an output, M226 waits for the operator; other codes need `gcode.dialect = \"rs274\"`"
+        }
     }
 }
 

@@ -4,7 +4,8 @@
 //! end of the program, or a comment. An interpreter then accepts every line, and none changes the meaning of the lines around
 //! it. One thing cannot be checked: the tool that T chooses must be in the controller's own tool table.
 
-use super::step::Step;
+use super::dialect::Dialect;
+use super::step::{NUMBER_MAX, Step};
 use super::words::{Flaw, Number, Word, words};
 
 /// Position of a text in a program.
@@ -41,7 +42,9 @@ const CHOICES: &[(&str, &[&str])] = &[
     ("offset", &["G92.1"]),
     ("overrides", &["M48", "M49"]),
 ];
-/// Codes that end a program.
+/// Codes that choose and that every dialect has.
+const COMMON: &[&str] = &["G17", "G21", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3", "G90"];
+/// Codes that end a program in some dialect.
 const ENDS: [&str; 2] = ["M2", "M30"];
 /// Codes that move axes.
 const MOVES: &[&str] = &["G0", "G1", "G2", "G3", "G28", "G30", "G53"];
@@ -57,19 +60,23 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Meanings of the lines of a text, or its first flaw.
-pub(super) fn read(text: &str, place: ProgramEnd) -> Result<Vec<Line>, Flaw> {
-    let lines: Vec<Line> = lines(text).map(|text| line(text, place)).collect::<Result<_, _>>()?;
+pub(super) fn read(text: &str, place: ProgramEnd, dialect: Dialect) -> Result<Vec<Line>, Flaw> {
+    let lines: Vec<Line> = lines(text).map(|text| line(text, place, dialect)).collect::<Result<_, _>>()?;
     let end = lines.iter().position(|line| *line == Line::EndOfProgram);
     match (place, end) {
-        (ProgramEnd::End, None) => Err(Flaw::new("no end of the program", "its last line is M2 or M30")),
-        (ProgramEnd::End, Some(end)) if lines[end + 1..].iter().any(|line| *line != Line::Comment) => {
-            Err(Flaw::new("lines behind its end", "M2 or M30 stands in the last one: nothing is read behind it"))
+        (ProgramEnd::End, None) => {
+            let hint = format!("its last line is {}", dialect.ends().join(" or "));
+            Err(Flaw::new("no end of the program", hint))
         }
+        (ProgramEnd::End, Some(end)) if lines[end + 1..].iter().any(|line| *line != Line::Comment) => Err(Flaw::new(
+            "lines behind its end",
+            format!("{} stands in the last one: nothing is read behind it", dialect.ends().join(" or ")),
+        )),
         (ProgramEnd::Start | ProgramEnd::End, _) => Ok(lines),
     }
 }
 
-fn line(text: &str, place: ProgramEnd) -> Result<Line, Flaw> {
+fn line(text: &str, place: ProgramEnd, dialect: Dialect) -> Result<Line, Flaw> {
     if let Some(c) = text.chars().find(|c| !matches!(c, ' '..='~' | '\t')) {
         let hint = "lines of G-code are plain ASCII, comments too";
         return Err(Flaw::new(format!("`{}`, which no controller reads", c.escape_default()), hint));
@@ -83,15 +90,21 @@ fn line(text: &str, place: ProgramEnd) -> Result<Line, Flaw> {
     match words.as_slice() {
         [] => Ok(Line::Comment),
         [code] if ENDS.iter().any(|end| code.is(end)) => match place {
-            ProgramEnd::End => Ok(Line::EndOfProgram),
+            ProgramEnd::End => match dialect.other_effect(&code.to_string()) {
+                None => Ok(Line::EndOfProgram),
+                Some(effect) => Err(Flaw::new(
+                    format!("{code}, by which {effect}"),
+                    format!("its last line is {}", dialect.ends().join(" or ")),
+                )),
+            },
             ProgramEnd::Start => Err(Flaw::new(
                 format!("{code}, which ends the program"),
                 "only the last line of `gcode.footer` does that",
             )),
         },
         [tool, change @ ..] if tool.letter == 'T' && change.iter().all(|word| word.is("M6")) => chosen(*tool, place),
-        words if words.iter().all(|word| group(*word).is_some()) => told_apart(words),
-        words => switched(words, &bare),
+        words if words.iter().all(|word| group(*word).is_some()) => told_apart(words, dialect),
+        words => switched(words, &bare, dialect),
     }
 }
 
@@ -115,7 +128,11 @@ fn group(word: Word) -> Option<&'static str> {
 }
 
 /// Line of codes that choose, each of another group.
-fn told_apart(words: &[Word]) -> Result<Line, Flaw> {
+fn told_apart(words: &[Word], dialect: Dialect) -> Result<Line, Flaw> {
+    let is_foreign = |word: &&Word| dialect == Dialect::Reprap && !COMMON.iter().any(|code| word.is(code));
+    if let Some(word) = words.iter().find(is_foreign) {
+        return Err(Flaw::new(format!("{word}, which {} does not know", dialect.title()), "leave it out"));
+    }
     for (i, word) in words.iter().enumerate() {
         if let Some(other) = words[..i].iter().find(|other| group(**other) == group(*word)) {
             let both = format!("{other} and {word} on a line");
@@ -126,13 +143,13 @@ fn told_apart(words: &[Word]) -> Result<Line, Flaw> {
 }
 
 /// Line that is a single step that moves no axis.
-fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
+fn switched(words: &[Word], bare: &str, dialect: Dialect) -> Result<Line, Flaw> {
     let is_move = |word: &&Word| matches!(word.letter, 'A'..='C' | 'U'..='Z') || MOVES.iter().any(|code| word.is(code));
     if let Some(word) = words.iter().find(is_move) {
         let hint = "only the program moves axes: `park` says where they go at the end, steps may move Z";
         return Err(Flaw::new(format!("{word}, which moves an axis"), hint));
     }
-    match Step::read(bare) {
+    match step(words, bare, dialect) {
         Ok(step) if step.has_blank() => Err(Flaw::new(
             format!("{step}, in which no drill is meant"),
             "# stands in `gcode.drill_down` and `gcode.drill_up`",
@@ -140,6 +157,25 @@ fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
         Ok(step) => Ok(Line::Step(step)),
         Err(flaw) => Err(words.iter().find_map(|word| foreign(*word)).unwrap_or(flaw)),
     }
+}
+
+/// Step of a line as a dialect spells it: the line is written as it is.
+fn step(words: &[Word], bare: &str, dialect: Dialect) -> Result<Step, Flaw> {
+    let is_rest = words.first().is_some_and(|code| code.is("G4"));
+    let step = match (dialect, words) {
+        (Dialect::Reprap, [_, Word { letter: 'S', number: Number::Plain(time) }])
+            if is_rest && (0.0..=NUMBER_MAX).contains(time) =>
+        {
+            Step::Dwell { time: *time }
+        }
+        (Dialect::Reprap, [_, word, ..]) if is_rest => {
+            let why = if word.letter == 'P' { "which would be ms" } else { "which is no time" };
+            let hint = "RepRapFirmware takes the seconds of a rest as S, as in G4 S0.5";
+            return Err(Flaw::new(format!("G4 {word}, {why}"), hint));
+        }
+        (Dialect::Rs274 | Dialect::Reprap, _) => Step::read(bare)?,
+    };
+    step.foreign_to(dialect).map_or(Ok(step), Err)
 }
 
 /// Flaw for a word that the program writes itself, or that no text may have.
@@ -209,10 +245,13 @@ mod tests {
             (ProgramEnd::End, "M2"),
             (ProgramEnd::End, "M9\nG4 P0.5\nM65 P0 (up)\nG80\nM30 (so)\n; it ends"),
         ] {
-            let taken = read(text, place);
+            let taken = read(text, place, Dialect::Rs274);
             assert!(taken.is_ok(), "{text}: {taken:?}");
         }
-        assert_eq!(line("(up) m65p0", ProgramEnd::End), Ok(Line::Step("M65 P0".parse().expect("a step"))));
+        assert_eq!(
+            line("(up) m65p0", ProgramEnd::End, Dialect::Rs274),
+            Ok(Line::Step("M65 P0".parse().expect("a step")))
+        );
     }
 
     #[test]
@@ -246,10 +285,35 @@ mod tests {
             (ProgramEnd::End, "M2\nM5", "lines behind its end"),
             (ProgramEnd::End, "M5", "no end of the program"),
         ] {
-            let found = read(text, place).expect_err(text).has;
+            let found = read(text, place, Dialect::Rs274).expect_err(text).has;
             assert!(found.starts_with(expected), "{text}: {found}");
         }
         let long = format!("M3 ({})", "x".repeat(LINE_MAX));
-        assert!(read(&long, ProgramEnd::Start).expect_err("too long").has.starts_with("a line of 205 characters"));
+        assert!(
+            read(&long, ProgramEnd::Start, Dialect::Rs274)
+                .expect_err("too long")
+                .has
+                .starts_with("a line of 205 characters")
+        );
+    }
+    #[test]
+    fn lines_are_spelled_as_the_dialect_spells_them() {
+        let taken = read("G54\nG17 G21 G90\nG4 S2\nM42 P1 S1", ProgramEnd::Start, Dialect::Reprap).expect("lines");
+        assert_eq!(taken[2], Line::Step(Step::Dwell { time: 2.0 }));
+        assert!(read("G4 S0.5\nM2", ProgramEnd::End, Dialect::Reprap).is_ok());
+        for (place, text, expected) in [
+            (ProgramEnd::Start, "G4 P2", "G4 P2, which would be ms"),
+            (ProgramEnd::Start, "G4 S-1", "G4 S-1, which is no time"),
+            (ProgramEnd::Start, "G54\nG40", "G40, which RepRapFirmware does not know"),
+            (ProgramEnd::Start, "M64 P0", "M64 P0, which RepRapFirmware does not know"),
+            (ProgramEnd::Start, "M0", "M0, by which RepRapFirmware ends the job"),
+            (ProgramEnd::End, "M30", "M30, by which RepRapFirmware deletes a file"),
+        ] {
+            assert_eq!(read(text, place, Dialect::Reprap).expect_err(text).has, expected);
+        }
+        let found = read("G4 S2", ProgramEnd::Start, Dialect::Rs274).expect_err("P is meant").has;
+        assert_eq!(found, "S2, which G4 does not take");
+        let found = read("M42 P1 S1", ProgramEnd::Start, Dialect::Rs274).expect_err("another dialect").has;
+        assert_eq!(found, "M42 P1 S1, which RS274/NGC does not know");
     }
 }

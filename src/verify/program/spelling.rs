@@ -154,10 +154,7 @@ impl Expected {
             Step::Output { pin, on } => format!("M{}{}", if *on { 64 } else { 65 }, word('P', pin.of(blank))),
             Step::Z { to_mm, feed_mm_min: None } => format!("G0{}", word('Z', *to_mm)),
             Step::Z { to_mm, feed_mm_min: Some(feed) } => format!("G1{}{}", word('Z', *to_mm), word('F', *feed)),
-            Step::Dwell { time } => match dialect {
-                Dialect::Rs274 => format!("G4{}", word('P', *time)),
-                Dialect::Reprap => format!("G4{}", word('S', *time)),
-            },
+            Step::Dwell { time } => format!("G4{}", word(rest_letter(dialect), *time)),
             Step::Code { m, parameters } => {
                 let words = parameters.iter().map(|parameter| word(parameter.letter, parameter.number.of(blank)));
                 format!("M{m}{}", words.collect::<String>())
@@ -169,6 +166,14 @@ impl Expected {
     /// True if the line, as written or in the spelling of the target, is the expected one.
     pub(in crate::verify) fn is(&self, line: &[u8]) -> bool {
         self.text.as_bytes() == line || self.plain.as_deref() == Some(line)
+    }
+}
+
+/// Letter of the time of a rest in seconds. P of `RepRapFirmware` is in ms.
+fn rest_letter(dialect: Dialect) -> char {
+    match dialect {
+        Dialect::Rs274 => 'P',
+        Dialect::Reprap => 'S',
     }
 }
 
@@ -195,7 +200,7 @@ pub(in crate::verify) struct Words {
     pub(in crate::verify) j: Option<f64>,
     pub(in crate::verify) f: Option<f64>,
     /// Time of a rest, s.
-    pub(in crate::verify) p: Option<f64>,
+    pub(in crate::verify) rest: Option<f64>,
 }
 
 impl Words {
@@ -225,8 +230,8 @@ impl Words {
 
     /// Time of a rest, s; `None` when the line is not a rest or has other words.
     pub(in crate::verify) fn rest(&self) -> Option<f64> {
-        let alone = Self { g: Some(4.0), p: self.p, ..Self::default() };
-        self.p.filter(|_| *self == alone)
+        let alone = Self { g: Some(4.0), rest: self.rest, ..Self::default() };
+        self.rest.filter(|_| *self == alone)
     }
 
     /// Letter that a line of motion must not have; for example, P on an arc is a number of turns.
@@ -236,7 +241,7 @@ impl Words {
             ('I', self.i.is_some() && !is_arc),
             ('J', self.j.is_some() && !is_arc),
             ('F', self.f.is_some() && code == 0.0),
-            (if dialect == Dialect::Rs274 { 'P' } else { 'S' }, self.p.is_some()),
+            (rest_letter(dialect), self.rest.is_some()),
         ];
         there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
     }
@@ -250,9 +255,7 @@ impl Words {
             b'I' => &mut self.i,
             b'J' => &mut self.j,
             b'F' => &mut self.f,
-            // P of `RepRapFirmware` is in ms.
-            b'P' if profile.gcode.dialect == Dialect::Rs274 => &mut self.p,
-            b'S' if profile.gcode.dialect == Dialect::Reprap => &mut self.p,
+            letter if char::from(letter) == rest_letter(profile.gcode.dialect) => &mut self.rest,
             letter if letter == profile.gcode.letter.byte() => &mut self.c,
             _ => return None,
         })

@@ -3,8 +3,8 @@
 //! The planner plans each move from rest to rest and starts the next one while the last one decelerates (a parabolic blend).
 //! For that it halves the acceleration, and it slows down at kinks so that the path deviates by at most G64 P. It makes no
 //! blend arcs in this case, so the speed of a piece never exceeds sqrt(a l). Kinks are defined by the acceleration: that of an
-//! arc leans towards its centre at its start, more so for a higher F. The time that a planner with a look-ahead would save is
-//! that beyond the one of the same moves from kink to kink. The rules are those of the planner (`tp.c`, `tc.c`,
+//! arc leans towards its centre at its start, more so for a higher F. The look-ahead share is
+//! the time beyond that of the same moves planned from kink to kink. The rules are those of the planner (`tp.c`, `tc.c`,
 //! `blendmath.c`, `emccanon.cc`) as closed-form formulas; cycles are not simulated.
 
 use super::buffer::{Block, Supply, durations};
@@ -98,7 +98,7 @@ impl Pace {
         }
         let limit = if step.feed.speed <= most { step.feed.limit } else { limit };
         let [asked, shortest] = [step.feed.speed.min(most), length / (CYCLES_MIN * self.cycle)];
-        let (speed, limit) = if shortest < asked { (shortest, Limit::Blocks) } else { (asked, limit) };
+        let (speed, limit) = if shortest < asked { (shortest, Limit::Cycles) } else { (asked, limit) };
         let [start, end] = step.along;
         let start = (start + left(start) * lean).try_normalize(0.0).unwrap_or_default();
         Some(Planned {
@@ -112,6 +112,9 @@ impl Pace {
 
     /// Adds the time of the moves up to a rest.
     fn rest(&mut self) {
+        if self.moves.is_empty() {
+            return;
+        }
         let start = self.time;
         // Speed and distance that the previous move has already given to this one.
         let (mut begun, mut way) = (0.0, 0.0);

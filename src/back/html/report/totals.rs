@@ -72,7 +72,7 @@ pub(super) fn section(about: &About, out: &mut Markup) {
                 let time = clock(spent.time);
                 rows.push((
                     "Time on the controller",
-                    format!("about {time} by {planner}'s planner, {moves} arcs and lines"),
+                    format!("about {time} by {}'s planner, {moves} arcs and lines", planner.title()),
                 ));
                 rows.extend(chosen.iter().map(|chosen| ("Moves", format!("{}, the fastest", chosen.name))));
                 let share = |part: f64| format!("{} %", fixed(PERCENT * part / spent.time, 0));

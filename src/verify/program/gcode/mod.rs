@@ -12,12 +12,12 @@ use std::io::{self, BufRead, ErrorKind};
 use std::rc::Rc;
 
 use self::arc::Arc;
-use self::texts::{HEADS, Meaning, Stands, Text, bite, texts};
+use self::texts::{Meaning, Stands, Text, bite, first_line, texts};
 use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::verdict::{Sighting, Worst};
 use crate::machine::MachineProfile;
-use crate::machine::gcode::{FeedCounts, FeedMode, Moves, Outputs, SETTLE};
+use crate::machine::gcode::{Dialect, FeedCounts, FeedMode, Moves, Outputs, SETTLE};
 use crate::units::S_PER_MIN;
 use crate::units::number::exact;
 use crate::verify::axes::crawl::{Asked, Axes};
@@ -49,22 +49,22 @@ const MOVES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 /// Error for a line that acts after the end of the program.
 const BEHIND_END: &str = "comes behind the end of the program";
 
-/// True if the bytes look like a program of this target.
-pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
+/// True if the bytes look like a program of this target in a dialect.
+pub(in crate::verify) fn begins(bytes: &[u8], dialect: Dialect) -> bool {
     let lines = bytes.split(|&byte| byte == b'\n').map(|line| plain(line.strip_suffix(b"\r").unwrap_or(line)));
     // Blank lines and comments may precede the head.
     let mut asking = lines.skip_while(|line| matches!(line.as_deref(), Some([])));
-    asking.next().flatten().is_some_and(|line| HEADS.contains(&line.as_slice()))
+    asking.next().flatten().is_some_and(|line| line == first_line(dialect).as_bytes())
 }
 
 /// Reason why G-code cannot be verified, and advice; `None` when the bytes do not look like G-code.
-pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+pub(in crate::verify) fn foreign(bytes: &[u8], dialect: Dialect) -> Option<[String; 2]> {
     let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
     // Blocks of cut files end with an asterisk.
     let is_code =
         matches!(line, [b'G' | b'g' | b'N' | b'n', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
     is_code.then(|| {
-        let head = String::from_utf8_lossy(HEADS[0]);
+        let head = first_line(dialect);
         let text = String::from_utf8_lossy(line);
         let first: String = text.trim_end().escape_debug().take(FIRST_CHARS).collect();
         let hint = if first == "%" {

@@ -8,8 +8,14 @@ use crate::units::number::exact;
 use crate::verify::program::number::whole;
 use crate::verify::program::spelling::Expected;
 
-/// First lines of such programs, without their line numbers: of RS274/NGC, and of `RepRapFirmware`.
-pub(super) const HEADS: [&[u8]; 2] = [b"G17 G21 G40 G80 G90 G91.1", b"G17 G21 G90"];
+/// First line of a program in a dialect, without its line number.
+pub(super) fn first_line(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::Rs274 => "G17 G21 G40 G80 G90 G91.1",
+        Dialect::Reprap => "G17 G21 G90",
+    }
+}
+
 /// Numbers of the drills of a machine.
 const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 
@@ -53,11 +59,8 @@ impl Stands {
 pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
     let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
-    let first = match keys.dialect {
-        Dialect::Rs274 => HEADS[0],
-        Dialect::Reprap => HEADS[1],
-    };
-    let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(first), keys.header, keys.feed_mode.code());
+    let first = first_line(keys.dialect);
+    let head = format!("{first}\n{blend}\n{}\n{}", keys.header, keys.feed_mode.code());
     let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning, stands: Stands::default() };
     let steps = |steps: &[Step], drill: u8, meaning| {
         let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill.into(), keys.dialect))).collect();
