@@ -137,6 +137,14 @@ fn a_rest_spelled_for_another_dialect_is_refused() {
 }
 
 #[test]
+fn a_usual_first_line_is_that_of_one_dialect_only() {
+    let room = room();
+    room.write("other.ngc", b"G17 G21 G90\nG0 X1\n");
+    let (_, stderr) = room.expect("verify other.ngc --source pocket.cut -p linuxcnc", FAULTY);
+    assert!(stderr.contains("its first line is `G17 G21 G90`, not `G17 G21 G40 G80 G90 G91.1`"), "{stderr}");
+}
+
+#[test]
 fn arcs_in_inverse_time_are_refused_for_a_controller_that_does_not_divide_it() {
     let room = room();
     let fixed = "--set gcode.moves=fixed --set gcode.feed_mode=G93";
