@@ -462,6 +462,18 @@ impl Marker {
             .collect()
     }
 
+    /// Windows of a conveyor in which the pieces are cut, in order: the advance of the cloth before each, in all, mm, and its
+    /// pieces by index. One window if the cloth lies still.
+    pub fn windows(&self) -> Vec<(u32, std::ops::Range<usize>)> {
+        let stations = self.stations();
+        let mut first = 0;
+        let window = |same: &[u32]| {
+            first += same.len();
+            (same[0], first - same.len()..first)
+        };
+        stations.chunk_by(|a, b| a == b).map(window).collect()
+    }
+
     /// Ends along X of what is cut with a piece, by its index, mm: of a section, its stretch; `None` if nothing is cut.
     pub fn cut_ends(&self, part: usize) -> Option<[f64; 2]> {
         let mut extent = Extent::EMPTY;

@@ -1,5 +1,7 @@
 //! Windows of a conveyor in which a marker is cut.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::rounded::{micro, micro_known};
@@ -24,22 +26,18 @@ pub struct Bite {
 
 /// Windows of a marker, in order, with the planned durations of its pieces; empty if the cloth does not move.
 pub(super) fn of(marker: &Marker, by_piece: &[([u32; 2], Spent)]) -> Vec<Bite> {
-    let stations = marker.stations();
-    if stations.last().is_none_or(|&last| last == 0) {
+    let windows = marker.windows();
+    if windows.last().is_none_or(|&(last, _)| last == 0) {
         return Vec::new();
     }
-    let mut bites: Vec<Bite> = Vec::new();
     // Index of the window of each part.
-    let mut of_part = Vec::with_capacity(stations.len());
-    for (part, &advance_mm) in (0..).zip(&stations) {
-        if bites.last().is_none_or(|last| last.advance_mm != advance_mm) {
-            bites.push(Bite { advance_mm, pieces: 0, cut_m: 0.0, time_s: None });
-        }
-        of_part.push(bites.len() - 1);
-        let bite = &mut bites[of_part[of_part.len() - 1]];
-        bite.pieces += 1;
-        bite.cut_m += marker.cut_length_of(part) / MM_PER_M;
-    }
+    let of_part: Vec<usize> =
+        windows.iter().enumerate().flat_map(|(k, (_, pieces))| pieces.clone().map(move |_| k)).collect();
+    let bite = |(advance_mm, pieces): (u32, Range<usize>)| {
+        let cut: f64 = pieces.clone().map(|part| marker.cut_length_of(part as u32)).sum();
+        Bite { advance_mm, pieces: pieces.len(), cut_m: cut / MM_PER_M, time_s: None }
+    };
+    let mut bites: Vec<Bite> = windows.into_iter().map(bite).collect();
     for ([_, part], spent) in by_piece {
         let Some(&window) = of_part.get(*part as usize) else { continue };
         *bites[window].time_s.get_or_insert(0.0) += spent.total();

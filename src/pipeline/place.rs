@@ -26,10 +26,10 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
             // Segments without a block have no place in the source.
             if span.block > 0
                 && let Some(places) = wanted.get_mut(&span.start)
-                // The first one in each copy of the marker.
-                && places.iter().all(|place| place.copy != piece.copy)
+                // The first one in each piece; a block of a drawing may be several pieces.
+                && places.last().is_none_or(|place| place.piece != Some(i))
             {
-                places.push(OnCloth { piece: Some(i), copy: piece.copy, point });
+                places.push(OnCloth { piece: Some(i), point });
             }
         };
         for contour in &piece.contours {
@@ -47,19 +47,23 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
     // Other lines of a drawing belong to no piece.
     for vertex in marker.drawing.iter().flat_map(|account| &account.aside.vertices) {
         if let Some(places) = wanted.get_mut(&vertex.span.start).filter(|places| places.is_empty()) {
-            places.push(OnCloth { piece: None, copy: 0, point: Some(vertex.at) });
+            places.push(OnCloth { piece: None, point: Some(vertex.at) });
         }
     }
     let letters = marker.letters(&job.profile.labels);
     diagnostics.revise(known, |finding| {
         let places = finding.span.and_then(|span| wanted.get(&span.start)).into_iter().flatten();
-        // Of several copies, the one at the place of the finding.
+        // Of several, one that the finding is about, at its place.
+        let is_other = |place: &OnCloth| {
+            let number = place.piece.map(|piece| marker.pieces[piece].number);
+            !finding.pieces.is_empty() && number.is_none_or(|number| !finding.pieces.contains(&number))
+        };
         let away = |place: &OnCloth| {
             let [at, point] =
                 [finding.at.as_deref().copied().map(Point::from), place.point].map(|at| at.unwrap_or(Point::origin()));
             if finding.at.is_none() { 0.0 } else { (at - point).norm() }
         };
-        let place = places.min_by(|a, b| away(a).total_cmp(&away(b)));
+        let place = places.min_by(|a, b| is_other(a).cmp(&is_other(b)).then(away(a).total_cmp(&away(b))));
         let Some(place) = place.filter(|_| finding.piece.is_none()) else { return };
         finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, letters)));
         finding.at = finding.at.take().or_else(|| place.point.map(|point| Box::new(point.into())));
@@ -69,7 +73,6 @@ pub fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, sourc
 /// A piece, by its index, and a point of it; no piece for lines that are not cut.
 struct OnCloth {
     piece: Option<usize>,
-    copy: u32,
     point: Option<Point>,
 }
 

@@ -341,10 +341,13 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     // The frame that was asked for is around it.
     let of_frame = match job.profile.hpgl.frame {
         Frame::Outermost => "if it is a frame in the frame, let the CAD draw one of them only",
-        Frame::Auto | Frame::None => "if it is a frame, `--set hpgl.frame=outermost`: what lies in it is cut",
+        Frame::Auto | Frame::None => "if it is a frame, `--set hpgl.frame=outermost`: its parts are cut",
     };
     let of_part = "if it is a part, `--inner ignore`; `--inner cut` cuts its cut-outs, too";
-    Some(found.hint(of_frame).hint(of_part))
+    let has_pens = sheet.pens.iter().filter(|pen| pen.draws && !pen.is_layer).count() > 1;
+    let of_pens = has_pens.then_some("if the parts have a pen of their own, name it: `--cut-pens`");
+    let found = found.hint(of_frame).hint(of_part);
+    Some(of_pens.into_iter().fold(found, Diagnostic::hint))
 }
 
 /// Closed lines outside the frames: the cloth is not there.
@@ -430,7 +433,7 @@ fn cut_short(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
     let message = match (is_amid_number, is_long && (!is_inside || cuts_inside)) {
         (true, _) if last.is_closed => "the file ends amid a number, which the size of its last curve depends on",
         (true, _) => "the file ends amid a number, and the line that it draws does not close",
-        (false, true) if is_inside => "the file ends amid a line inside a part that does not close",
+        (false, true) if is_inside => "the file ends amid a line that does not close, inside a part",
         (false, true) => "the file ends amid a line outside all parts that does not close",
         (false, false) => return None,
     };

@@ -81,7 +81,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 33] = [
+const OTHERWISE: [(&str, &str); 34] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-beside-decimals", "its chords are others"),
@@ -90,6 +90,7 @@ const OTHERWISE: [(&str, &str); 33] = [
     ("corners-behind-the-scale", "it forgets the scale when corners follow"),
     ("corners-given-late", "it forgets the scale when corners follow"),
     ("ends-amid-a-radius", "its chords are others"),
+    ("interface-sequence-amid-places", "it ends the list at the sequence"),
     ("page-drawn-again", "it draws the page twice"),
     ("rectangles-and-wedge", "its chords are others"),
     ("encoded-and-saved-as-utf-8", "it repairs nothing"),

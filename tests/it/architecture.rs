@@ -174,6 +174,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),
     ("sides", "joins strokes of an outline that were rounded apart, for the pass that welds"),
+    ("far", "finds points that a wrong digit has moved, for the pass that warns"),
     ("severed", "finds slits that meet, for the pass that warns"),
     ("stray", "finds short strokes on no edge, for the pass that warns"),
     ("sewn", "recognises files of sewing machines"),

@@ -327,8 +327,8 @@ fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
                 }
                 let text = String::from_utf8_lossy(&rest[..leads + 2 + end]).to_uppercase();
                 let text = text.replace("\r\n", "END").replace('\n', "END").replace('\t', " ");
-                // Blanks and commas behind the last number say nothing.
-                let text = text.trim_end_matches(' ').replace(",;", ";");
+                // Blanks and commas behind the last number say nothing; an escape sequence may follow them.
+                let text = text.trim_end_matches([' ', ',']).replace(",;", ";");
                 statements.push(("instruction", with_short_numbers(&text)));
                 rest = &numbers[end..];
             }

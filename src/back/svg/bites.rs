@@ -1,5 +1,7 @@
 //! Windows of a conveyor: the stretch of cloth that is cut in each, and the borders at which they split pieces.
 
+use std::ops::Range;
+
 use super::markup::PathData;
 use crate::back::target::Context;
 use crate::geom::{Extent, Point};
@@ -10,48 +12,47 @@ use crate::units::number::fixed;
 pub(super) const BORDER: &str = "border";
 /// Width of a letter, as a fraction of the font size, at the most.
 const LETTER_WIDTH: f64 = 0.62;
+/// Distance of the words from the end of their bar, as a multiple of the font size.
+const INDENT: f64 = 0.4;
 
 /// A window as drawn below the marker: a bar and its text.
 pub(super) struct Window {
+    /// Its place among all windows, from 0: that of its colour.
+    pub(super) index: usize,
     /// Stretch of the cloth along X that is cut in it, mm.
     pub(super) ends: [f64; 2],
     /// Line of the legend, from 0.
     pub(super) row: usize,
     pub(super) words: String,
-    /// Length of the words at the most, mm.
-    pub(super) length: f64,
+    /// Left end of the words, mm.
+    pub(super) words_at: f64,
 }
 
-/// The windows of a marker, in order, with a font of `size` mm; empty where the cloth lies still. Bars and texts of a row are
-/// free of each other.
-pub(super) fn windows(marker: &Marker, size: f64) -> Vec<Window> {
-    let stations = marker.stations();
-    if stations.iter().all(|&station| station == 0) {
+/// The windows of a marker in which anything is cut, in order, with a font of `size` mm; empty where the cloth lies still. Words
+/// end within `right`. Bars and words of a row are free of each other.
+pub(super) fn windows(marker: &Marker, size: f64, right: f64) -> Vec<Window> {
+    let windows = marker.windows();
+    if windows.iter().all(|&(station, _)| station == 0) {
         return Vec::new();
     }
-    let mut found: Vec<(u32, [f64; 2])> = Vec::new();
-    for (piece, &station) in stations.iter().enumerate() {
-        let Some(ends) = marker.cut_ends(piece) else { continue };
-        match found.last_mut().filter(|last| last.0 == station) {
-            Some((_, [from, to])) => (*from, *to) = (from.min(ends[0]), to.max(ends[1])),
-            None => found.push((station, ends)),
-        }
-    }
     let mut rows: Vec<f64> = Vec::new();
-    let place = |(number, (station, ends)): (usize, (u32, [f64; 2]))| {
-        let words = format!("bite {number}, cloth moved {station} mm");
+    let place = |(index, (station, pieces)): (usize, (u32, Range<usize>))| {
+        let all = pieces.filter_map(|piece| marker.cut_ends(piece));
+        let ends = all.reduce(|[from, to], [start, end]| [from.min(start), to.max(end)])?;
+        let words = format!("bite {}, cloth moved {station} mm", index + 1);
         let length = words.len() as f64 * LETTER_WIDTH * size;
-        let row = rows.iter().position(|&last| last < ends[0]).unwrap_or(rows.len());
+        let words_at = (ends[0] + INDENT * size).min(right - length);
+        let row = rows.iter().position(|&last| last < ends[0].min(words_at)).unwrap_or(rows.len());
         rows.resize(rows.len().max(row + 1), 0.0);
-        rows[row] = ends[1].max(ends[0] + length);
-        Window { ends, row, words, length }
+        rows[row] = ends[1].max(words_at + length);
+        Some(Window { index, ends, row, words, words_at })
     };
-    (1..).zip(found).map(place).collect()
+    windows.into_iter().enumerate().filter_map(place).collect()
 }
 
-/// Lines that the bars take in the legend, with a font of `size` mm.
-pub(super) fn lines(context: &Context, size: f64) -> usize {
-    windows(context.marker, size).iter().map(|window| window.row + 1).max().unwrap_or(0)
+/// Lines that the bars take in the legend, with a font of `size` mm and words that end within `right`.
+pub(super) fn lines(context: &Context, size: f64, right: f64) -> usize {
+    windows(context.marker, size, right).iter().map(|window| window.row + 1).max().unwrap_or(0)
 }
 
 /// Borders at which windows split pieces: the stretch of cloth within each piece.
@@ -66,7 +67,7 @@ fn borders(marker: &Marker) -> Vec<([Point; 2], String)> {
                 across.add(from + (to - from) * ((x - from.x) / (to.x - from.x)));
             }
         }
-        let title = format!("piece {} is split at X {}", marker.pieces[owner].name(), fixed(x, 1));
+        let title = format!("piece {} is split at X {} mm", marker.pieces[owner].name(), fixed(x, 1));
         (!across.is_empty()).then_some(([across.min, across.max], title))
     };
     early.filter_map(border).collect()

@@ -36,7 +36,7 @@ pub(super) fn layer(
     let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
     let mut y = sheet.legend + line / 2.0;
     text.push_str(&bars(context, sheet, y));
-    y += line * bites::lines(context, TEXT_PX * sheet.px) as f64;
+    y += line * bites::lines(context, TEXT_PX * sheet.px, sheet.left + sheet.width) as f64;
     text.push_str(&scale_bar(sheet, Point::new(left, y)));
     text.push_str(&links(sheet, y));
     y += line;
@@ -80,16 +80,16 @@ pub(super) fn layer(
 /// A bar for each window of a conveyor, at its place along X, with the top of the first line.
 fn bars(context: &Context, sheet: &Sheet, top: f64) -> String {
     let mut text = String::new();
-    let windows = bites::windows(context.marker, TEXT_PX * sheet.px);
-    for (Window { ends: [from, to], row, words, length }, colour) in windows.into_iter().zip(PALETTE.iter().cycle()) {
+    for window in bites::windows(context.marker, TEXT_PX * sheet.px, sheet.left + sheet.width) {
+        let Window { index, ends, row, words, words_at } = window;
         let y = top + LINE_PX * sheet.px * row as f64;
         let down = Vector::new(0.0, END_PX * sheet.px);
-        let [start, end] = [from, to].map(|x| Point::new(x, y));
+        let [start, end] = ends.map(|x| Point::new(x, y));
         let mut data = PathData::default();
         data.line([start + down, start, end, end + down]);
+        let colour = PALETTE[index % PALETTE.len()];
         let _infallible = write!(text, "<g color=\"{colour}\">{}", data.element("run").trim_end());
-        let most = sheet.left + sheet.width - length;
-        let at = Point::new((from + END_PX * sheet.px).min(most), y + TEXT_BELOW_PX * sheet.px);
+        let at = Point::new(words_at, y + TEXT_BELOW_PX * sheet.px);
         let _infallible = writeln!(text, "{}</g>", sheet.text("", at, &words).trim_end());
     }
     text

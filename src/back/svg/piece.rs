@@ -88,11 +88,10 @@ impl Shape {
 /// The shapes of all pieces, in cut order.
 pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
     let mut shapes = Vec::with_capacity(marker.pieces.len());
-    let stations = marker.stations();
-    let has_bites = stations.iter().any(|&station| station > 0);
-    let mut windows = stations.clone();
-    windows.dedup();
-    for (piece, station) in marker.pieces.iter().zip(&stations) {
+    let windows = marker.windows();
+    let has_bites = windows.iter().any(|&(station, _)| station > 0);
+    let bites = windows.into_iter().enumerate().flat_map(|(bite, (_, pieces))| pieces.map(move |_| bite));
+    for (piece, bite) in marker.pieces.iter().zip(bites) {
         let contours: Vec<Contour> =
             piece.contours.iter().map(|c| Contour { points: marker.points(c), closed: c.closed }).collect();
         let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
@@ -113,7 +112,7 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
         let (number, name) = (piece.number, piece.name());
         let place = shapes.len() + 1;
-        let bite = windows.iter().position(|window| window == station).filter(|_| has_bites);
+        let bite = Some(bite).filter(|_| has_bites);
         let window = bite.map_or_else(String::new, |bite| format!(", bite {}", bite + 1));
         let title = format!("piece {name}{window}, {place} of {} in cut order{}", marker.pieces.len(), blocks(spans));
         shapes.push(Shape { number, name, bite, extent, title, contours, taken: drills, notches: notches(piece) });

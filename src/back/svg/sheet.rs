@@ -115,7 +115,8 @@ impl Sheet {
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
         let tables: usize = [marks.len(), declared.len(), doubts.len()].into_iter().map(table_lines).sum();
-        let lines = 2 + bites::lines(context, TEXT_PX * px) + items(context).count().div_ceil(sheet.columns()) + tables;
+        let bites = bites::lines(context, TEXT_PX * px, left + width);
+        let lines = 2 + bites + items(context).count().div_ceil(sheet.columns()) + tables;
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet
     }

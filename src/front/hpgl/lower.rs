@@ -155,6 +155,7 @@ impl Lowering<'_> {
         if let Some(finding) = ending::of_plot(&last, &self.reader, &self.plotter) {
             self.out.push(finding);
         }
+        self.tally.dots = self.plotter.dots;
         self.plotter.lift();
         self.tally.adrift(self.plotter.adrift);
         self.tally.lost(self.plotter.lost);
@@ -180,7 +181,7 @@ impl Lowering<'_> {
     fn obey(&mut self, instruction: Instruction, span: Span) {
         match instruction {
             Instruction::Down => {
-                self.plotter.lower();
+                self.plotter.lower(span);
                 if self.moves() == 0 {
                     self.tally.air.settle_at(self.plotter.at());
                 }
@@ -520,7 +521,7 @@ impl Lowering<'_> {
                     if is_up {
                         self.plotter.lift();
                     } else {
-                        self.plotter.lower();
+                        self.plotter.lower(span);
                     }
                     let outcome = self.plotter.lead(to, span);
                     self.check(outcome, span);

@@ -37,6 +37,10 @@ pub(super) struct Plotter {
     /// Lines drawn from a place that depends on letters, and from one that depends on unreadable items.
     pub(super) adrift: Count,
     pub(super) lost: Count,
+    /// Place where the pen was lowered, as long as it has not moved since.
+    dot: Option<Span>,
+    /// Dots off the axes: the pen is lowered and lifted at one place, where no stroke ends.
+    pub(super) dots: Count,
     pen: u16,
     /// Its pen among the pens of the drawing, once it draws.
     drawing_pen: Option<u16>,
@@ -107,6 +111,8 @@ impl Plotter {
             torn: None,
             adrift: Count::default(),
             lost: Count::default(),
+            dot: None,
+            dots: Count::default(),
             pen: FIRST_PEN,
             drawing_pen: None,
             is_down: false,
@@ -121,6 +127,7 @@ impl Plotter {
 
     /// IN and similar: state as switched on, the pen up at the origin.
     pub(super) fn reset(&mut self) {
+        self.dot = None;
         self.lift();
         self.frame.reset();
         (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
@@ -209,11 +216,16 @@ impl Plotter {
     /// PU.
     pub(super) fn lift(&mut self) {
         (self.is_down, self.torn) = (false, None);
+        if let Some(span) = self.dot.take() {
+            self.dots.add(span);
+        }
         self.drawing.lift();
     }
 
     /// PD.
-    pub(super) fn lower(&mut self) {
+    pub(super) fn lower(&mut self, span: Span) {
+        let is_dot = !self.is_down && !self.is_parked() && !self.is_gathering() && !self.ends_here();
+        self.dot = Some(span).filter(|_| is_dot);
         (self.is_down, self.torn) = (true, None);
     }
 
@@ -230,6 +242,11 @@ impl Plotter {
     /// True if it is on an axis, where programs park the pen.
     pub(super) fn is_parked(&self) -> bool {
         self.at.contains(&0.0)
+    }
+
+    /// True if the last stroke ends at its place.
+    fn ends_here(&self) -> bool {
+        self.drawing.vertices.last().is_some_and(|vertex| vertex.at == self.point(self.at))
     }
 
     /// True if PM gathers the moves.
@@ -282,6 +299,7 @@ impl Plotter {
     /// A move that draws.
     pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         self.check(to)?;
+        self.dot = self.dot.filter(|_| to == self.at);
         match self.standing {
             Standing::Known => {}
             Standing::Lettered => self.adrift.add(span),

@@ -45,6 +45,8 @@ pub(super) struct Tally {
     too_many: Count,
     /// Lines with a start that only the plotter knows.
     adrift: Count,
+    /// Places that the pen touches without drawing.
+    pub(super) dots: Count,
     /// Lines that depend on unreadable bytes.
     lost: Count,
     /// Encoded polylines that an editor converted to UTF-8.
@@ -189,6 +191,11 @@ impl Tally {
         found.extend(self.lone_mode());
         found.extend(self.decimals.finding(&code::HPGL_LOST, &code::HPGL_LONE_POINT, |least| whole >= least));
         found.extend(self.air.finding());
+        if self.dots.count > 0 {
+            let message = format!("the pen touches the paper and draws nothing {}: not drilled", self.dots.times());
+            let finding = self.dots.diagnostic(&code::HPGL_DOTS, message);
+            found.push(finding.hint("if they mark holes, let the CAD draw circles, and set `hpgl.drill_max_mm`"));
+        }
         self.say_of_statements(&mut found);
         found.sort_by_key(|finding| finding.span);
         for finding in found {

@@ -33,6 +33,7 @@ mod outline;
 mod over;
 mod piece;
 mod placing;
+mod quantity;
 mod retrace;
 mod set;
 mod shape;

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::choice::Asked;
 use super::lay::{AXIS_EPSILON, Drawn, Motion};
 use super::layer::Names;
 use super::piece::Making;
@@ -11,7 +12,7 @@ use super::text::Facts;
 use crate::front::dxf::entity::{Block, NAME};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point};
-use crate::source::{Source, Span};
+use crate::source::Span;
 
 /// Maximum number of laid pieces.
 pub(super) const MOST_PIECES: usize = 100_000;
@@ -55,7 +56,7 @@ pub(super) struct Placing<'a> {
 
 impl<'a> Placing<'a> {
     /// Creates the placing for blocks with their base points.
-    pub(super) fn of(source: &Source, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Inserted<'a>>) -> Self {
+    pub(super) fn of(asked: &Asked, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Inserted<'a>>) -> Self {
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.head.bytes(NAME).to_ascii_uppercase()).or_insert(k);
@@ -71,7 +72,7 @@ impl<'a> Placing<'a> {
             };
             if let Some(k) = placing.block(name) {
                 placing.is_piece[k] = true;
-                placing.attributes[k] = placing.attributes[k].and(facts, source);
+                placing.attributes[k] = placing.attributes[k].and(facts, asked.source, &asked.letters);
             }
         }
         placing

@@ -146,14 +146,14 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let Sections { blocks, entities, unit: of_header, .. } = &sections;
     let parts = Parts::of(&sections, source, job, out);
     let own: Vec<Facts> = blocks.iter().map(|block| parts.facts(&block.entities)).collect();
-    let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source));
+    let file = own.iter().fold(parts.facts(entities), |facts, of_block| facts.and(*of_block, source, &parts.letters));
     say_text(file.unread, out);
     let asked = Asked { source, job, letters: parts.letters, file };
     let unit = unit(&asked, *of_header, || parts.lengths(), out);
     let mut reader = parts.reader(unit, out);
     let mut loose = reader.shapes(entities);
     let (mut drawn, mut said): (Vec<Shapes>, Vec<Diagnostics>) = blocks.iter().map(|block| reader.block(block)).unzip();
-    let placing = Placing::of(source, blocks, bases(&reader, blocks, &mut said), std::mem::take(&mut loose.inserts));
+    let placing = Placing::of(&asked, blocks, bases(&reader, blocks, &mut said), std::mem::take(&mut loose.inserts));
     let (on_paper, hidden, names) = (reader.on_paper, reader.hidden, std::mem::take(&mut reader.names));
     borrow(&mut drawn, &mut said, &sizes_of(&own, &asked));
     let held: Vec<Held> = drawn.iter().map(|shapes| Held::of(shapes, &names)).collect();

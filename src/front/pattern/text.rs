@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::key::{Key, key};
 use super::markup;
+use super::quantity::quantity;
 use crate::front::dxf::entity::{Entity, NAME, TEXT};
 use crate::machine::letters::Letters;
 use crate::source::{Source, Span};
@@ -39,23 +40,42 @@ pub(super) struct Facts {
 pub(super) struct Said {
     /// The first value.
     pub(super) first: Option<Span>,
-    /// The first value that differs from it, which makes the fact ambiguous.
+    /// The first value of another meaning, which makes the fact ambiguous.
     pub(super) other: Option<Span>,
 }
 
 impl Said {
-    /// Adds the value of the next text under the same key.
-    fn and(self, next: Option<Span>, source: &Source) -> Self {
+    /// Adds the value of the next text under the same key. `is_same` compares values.
+    fn and(self, next: Option<Span>, is_same: &impl Fn(Span, Span) -> bool) -> Self {
         let (Some(first), Some(next)) = (self.first, next) else {
             return Self { first: self.first.or(next), ..self };
         };
-        let is_same = source.slice(first).eq_ignore_ascii_case(source.slice(next));
-        Self { other: self.other.or(if is_same { None } else { Some(next) }), ..self }
+        Self { other: self.other.or(if is_same(first, next) { None } else { Some(next) }), ..self }
     }
 
     /// Adds the values of a second source after those of the first.
-    fn and_all(self, those: Self, source: &Source) -> Self {
-        self.and(those.first, source).and(those.other, source)
+    fn and_all(self, those: Self, is_same: &impl Fn(Span, Span) -> bool) -> Self {
+        self.and(those.first, is_same).and(those.other, is_same)
+    }
+}
+
+/// Comparison of the values of texts.
+#[derive(Clone, Copy)]
+struct Values<'a> {
+    source: &'a Source,
+    letters: &'a Letters,
+}
+
+impl Values<'_> {
+    /// True if two values are the same text.
+    fn are_same(self, one: Span, other: Span) -> bool {
+        self.source.slice(one).eq_ignore_ascii_case(self.source.slice(other))
+    }
+
+    /// True if two quantities ask for the same pieces, as `2` and `2 ON FOLD` do.
+    fn are_same_quantity(self, one: Span, other: Span) -> bool {
+        let times = |span| Some(quantity(&self.letters.text(self.source.slice(span)))?.times);
+        self.are_same(one, other) || times(one).is_some_and(|one| times(other) == Some(one))
     }
 }
 
@@ -71,6 +91,7 @@ impl Facts {
         source: &'a Source,
         letters: &Letters,
     ) -> Self {
+        let values = Values { source, letters };
         let mut facts = Self::default();
         for entity in entities.into_iter().filter(|entity| is_text(entity)) {
             facts.unread = facts.unread.or(long(entity, source));
@@ -86,7 +107,10 @@ impl Facts {
                 if entity.is("MTEXT") && markup::has_codes(source.slice(value)) {
                     facts.unread = facts.unread.or(Some(value));
                 }
-                *fact = fact.and(Some(value), source);
+                *fact = match key {
+                    Key::Quantity => fact.and(Some(value), &|one, other| values.are_same_quantity(one, other)),
+                    _ => fact.and(Some(value), &|one, other| values.are_same(one, other)),
+                };
             }
         }
         facts
@@ -99,14 +123,17 @@ impl Facts {
     }
 
     /// Adds the facts of a second source after those of the first.
-    pub(super) fn and(self, those: Self, source: &Source) -> Self {
+    pub(super) fn and(self, those: Self, source: &Source, letters: &Letters) -> Self {
+        let values = Values { source, letters };
+        let is_same = |one, other| values.are_same(one, other);
+        let is_same_quantity = |one, other| values.are_same_quantity(one, other);
         Self {
-            size: self.size.and_all(those.size, source),
-            sample_size: self.sample_size.and_all(those.sample_size, source),
-            units: self.units.and_all(those.units, source),
-            quantity: self.quantity.and_all(those.quantity, source),
-            name: self.name.and_all(those.name, source),
-            author: self.author.and_all(those.author, source),
+            size: self.size.and_all(those.size, &is_same),
+            sample_size: self.sample_size.and_all(those.sample_size, &is_same),
+            units: self.units.and_all(those.units, &is_same),
+            quantity: self.quantity.and_all(those.quantity, &is_same_quantity),
+            name: self.name.and_all(those.name, &is_same),
+            author: self.author.and_all(those.author, &is_same),
             unread: self.unread.or(those.unread),
         }
     }

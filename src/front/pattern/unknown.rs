@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::choice::{Asked, quantity};
+use super::choice::Asked;
 use super::key::key;
+use super::quantity::quantity;
 use super::text::{Facts, is_text, pairs};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::dxf::entity::Block;

@@ -54,6 +54,7 @@ pub struct Parameter {
 }
 
 /// Code that steps may have, and the letters of its words.
+#[derive(Clone, Copy)]
 pub(super) struct Form {
     pub(super) code: &'static str,
     /// Letters of required words, and of optional ones.

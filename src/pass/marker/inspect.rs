@@ -8,8 +8,7 @@
 //! - A contour does not close. Where coordinates lie on a grid (a cutter file) contours outline parts, so every gap is
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is, or a contour
 //!   that comes by its start and goes on.
-//! - A point of a contour stands far off between two that lie near each other, or off a corner several times as far as the rest
-//!   is long: a digit of it may be wrong.
+//! - A point of a contour stands far off two that lie near each other (`far`): a digit of it may be wrong.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
@@ -20,6 +19,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
+use super::far;
 use super::pass::MarkerPass;
 use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -49,21 +49,6 @@ const STRAIGHT_SHARE: f64 = 0.999;
 const BENT_SHARE: f64 = 0.9;
 /// Gap below which the ends of a contour of any length are near, mm.
 const NEAR_ENDS: f64 = 5.0;
-/// Least distance of a far point from both of its neighbours, mm: a part of a garment has no spike so long.
-const FAR: f64 = 300.0;
-/// Greatest distance between these neighbours, as a share of that.
-const FAR_SHARE: f64 = 0.1;
-/// Least distance of a corner from both of its neighbours, mm, from which on it may be as far from them as the rest of its contour
-/// is long; greatest distance between these neighbours, as a share of that; and least area of the rest, as a share of the square
-/// of its longer side: a long triangle has less.
-const FAR_CORNER: f64 = 1000.0;
-const CORNER_SHARE: f64 = 0.3;
-const CORNER_REST: f64 = 0.1;
-/// Least area of a contour without its far point, as a multiple of that of the spike.
-const REST: f64 = 4.0;
-/// Length of a spike, as a multiple of the extent of the rest of its contour, from which on that is compared with the square of
-/// its foot alone.
-const LONGER: f64 = 3.0;
 /// Gap between ends of open lines that were meant to meet, in units of the file: each end is rounded by itself.
 const MISSES: f64 = 2.5;
 /// Decimals of a gap, mm: the finest grid of any cutter file is 0.0254 mm.
@@ -85,10 +70,16 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     see_size(marker, diagnostics);
     let open: Vec<(usize, &Contour)> = marker.contours().filter(|(_, contour)| !contour.closed).collect();
     let is_side = sides(marker, &open, diagnostics);
-    for (&(piece, contour), _) in open.iter().zip(is_side).filter(|(_, is_side)| !is_side) {
-        open_contour(marker, piece, contour, diagnostics);
+    let mut work = Budget::of_a_marker();
+    let alone = open.iter().zip(is_side).filter(|(_, is_side)| !is_side).map(|(open, _)| *open);
+    let alone: Vec<(usize, &Contour)> = alone.collect();
+    for of_piece in alone.chunk_by(|a, b| a.0 == b.0) {
+        let closed = Closed::of(marker, of_piece[0].0);
+        for (piece, contour) in of_piece {
+            open_contour(marker, (*piece, contour), &closed, &mut work, diagnostics);
+        }
     }
-    far_points(marker, diagnostics);
+    far::report(marker, diagnostics);
     let boxed = Boxed::of(marker);
     let mut repeats = twice(marker, &boxed, diagnostics);
     repeats.spared.extend(beside(marker, &boxed, &repeats.all, job.profile.band(marker.unit), diagnostics));
@@ -109,112 +100,6 @@ struct Repeats {
 fn say_once(piece: u32, span: Span, diagnostics: &mut Diagnostics) {
     let message = format!("a contour of piece {piece} stands twice: cut once");
     diagnostics.push(Diagnostic::new(&code::MARKER_ROUND_AGAIN, message).at(span));
-}
-
-/// Reports the number of contours that have a point far off their other ones, and the farthest.
-fn far_points(marker: &Marker, diagnostics: &mut Diagnostics) {
-    let is_far = |[before, at, after]: [Point; 3]| {
-        let [back, on] = [before - at, after - at];
-        let least = back.norm_squared().min(on.norm_squared());
-        let share = if least >= FAR_CORNER * FAR_CORNER { CORNER_SHARE } else { FAR_SHARE };
-        least >= FAR * FAR && (on - back).norm_squared() <= share * share * least
-    };
-    let (mut count, mut worst): (usize, Option<(f64, usize, Range, usize)>) = (0, None);
-    for (piece, contour) in marker.contours() {
-        let points = marker.list.points(contour.range);
-        let last = points.len() - 1;
-        let start = contour.closed.then_some([last - 1, last, 1]);
-        // A line turns back at a far point, so that a monotone chain begins there.
-        let chains = marker.list.chains(contour.range);
-        let begins = chains.each().map(|(chain, _)| chain.first as usize).filter(|k| (1..last).contains(k));
-        let far = begins.map(|k| [k - 1, k, k + 1]).chain(start).filter(|&three| is_far(three.map(|k| points[k])));
-        let off = |[before, at, _]: [usize; 3]| (points[at] - points[before]).norm();
-        let farthest = far.max_by(|&a, &b| off(a).total_cmp(&off(b)));
-        let is_wrong = |three: &[usize; 3]| {
-            let places = three.map(|k| points[k]);
-            let far = Far::of(&points, *three);
-            let has_near = (places[2] - places[0]).norm() <= FAR_SHARE * off(*three);
-            far.is_corner() || has_near && (far.stands_out(marker.unit) || has_wrong_digit(places, marker.unit))
-        };
-        let Some(three) = farthest.filter(is_wrong) else { continue };
-        count += 1;
-        if worst.is_none_or(|(most, ..)| off(three) > most) {
-            worst = Some((off(three), piece, contour.range, three[0]));
-        }
-    }
-    let Some((off, piece, range, segment)) = worst else { return };
-    let (off, number) = (number::fixed(off, 0), marker.pieces[piece].number);
-    let message = match count {
-        1 => format!("a point of piece {number} stands {off} mm off its neighbours"),
-        count => format!("{count} contours have a point far off its neighbours, piece {number} {off} mm"),
-    };
-    let span = marker.list.spans(range)[segment];
-    let finding = Diagnostic::new(&code::MARKER_FAR_POINT, message).at(span).about(vec![number]);
-    diagnostics.push(finding.hint("a digit may be doubled or lost: look at the picture (`-t svg`), export it again"));
-}
-
-/// A point far from its neighbours, and the rest of its contour.
-struct Far {
-    /// The neighbour before the point, the point, and the one behind it.
-    spike: [Point; 3],
-    rest: Vec<Point>,
-    /// Area of the rest, mm2, and its longer side, mm.
-    area: f64,
-    side: f64,
-}
-
-impl Far {
-    fn of(points: &[Point], [before, at, after]: [usize; 3]) -> Self {
-        let rest: Vec<Point> = points.iter().copied().filter(|point| *point != points[at]).collect();
-        let (width, height) = Extent::of(&rest).size();
-        let spike = [before, at, after].map(|k| points[k]);
-        Self { spike, area: ring::area(&rest).abs(), side: width.max(height), rest }
-    }
-
-    /// True if the point is several times as far off as the rest of the contour is long.
-    fn is_longer(&self) -> bool {
-        let [before, at, after] = self.spike;
-        (at - before).norm().min((at - after).norm()) >= LONGER * self.side
-    }
-
-    /// True if a point and its neighbours are a spike out of the rest of the contour: the tip of a strip or of a godet is most
-    /// of its part, unless it is several times as long as all the rest. On a grid of `unit` mm (0 = none) a dart or a slash
-    /// leads into its part, and a wrong digit is told by its number.
-    fn stands_out(&self, unit: f64) -> bool {
-        let [before, at, after] = self.spike;
-        let base = if self.is_longer() { (after - before).norm_squared() } else { ring::area(&self.spike).abs() };
-        self.area >= REST * base && (unit <= 0.0 || !ring::contains(&self.rest, at))
-    }
-
-    /// True if the point is a corner of an outline that is moved far away.
-    fn is_corner(&self) -> bool {
-        let [before, at, after] = self.spike;
-        let least = (at - before).norm().min((at - after).norm());
-        least >= FAR_CORNER && self.is_longer() && self.area >= CORNER_REST * self.side * self.side
-    }
-}
-
-/// True if a point would lie between its neighbours with one digit more or less in one coordinate, on a grid of `unit` mm (0 =
-/// none). The tip of a dart or a slash has no such number, unless by chance.
-fn has_wrong_digit([before, at, after]: [Point; 3], unit: f64) -> bool {
-    if unit <= 0.0 {
-        return false;
-    }
-    let is_wrong = |axis: usize| {
-        let [one, other] = [before[axis], after[axis]];
-        let is_between = |value: f64| value >= one.min(other) - unit / 2.0 && value <= one.max(other) + unit / 2.0;
-        let number = format!("{:.0}", (at[axis] / unit).abs());
-        let told = |digits: String| digits.parse::<f64>().is_ok_and(|n| is_between((n * unit).copysign(at[axis])));
-        let more = (0..=number.len()).flat_map(|k| (0..10).map(move |digit| (k, digit)));
-        let mut more = more.map(|(k, digit)| format!("{}{digit}{}", &number[..k], &number[k..]));
-        let mut less = (0..number.len()).map(|k| format!("{}{}", &number[..k], &number[k + 1..]));
-        more.any(told) || less.any(told)
-    };
-    let is_kept = |axis: usize| {
-        let [one, other] = [before[axis], after[axis]];
-        at[axis] >= one.min(other) && at[axis] <= one.max(other)
-    };
-    is_kept(0) && is_wrong(1) || is_kept(1) && is_wrong(0)
 }
 
 /// Reports contours that together are smaller than a part. Readers of files with a grid check their unit themselves.
@@ -275,15 +160,43 @@ fn sides(marker: &Marker, open: &[(usize, &Contour)], diagnostics: &mut Diagnost
     is_side
 }
 
-fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &mut Diagnostics) {
+/// Closed contours of a piece: the box around each, and one of its points.
+struct Closed(Vec<(Extent, Point)>);
+
+impl Closed {
+    fn of(marker: &Marker, piece: usize) -> Self {
+        let closed = marker.pieces[piece].contours.iter().filter(|contour| contour.closed);
+        let boxed = |contour: &Contour| (marker.list.extent(contour.range), marker.list.points(contour.range)[0]);
+        Self(closed.map(boxed).collect())
+    }
+
+    /// True if one of them lies inside a line that nearly closes; `false` once the budget is spent.
+    fn any_in(&self, line: &[Point], work: &mut Budget) -> bool {
+        if !work.spend(self.0.len()) {
+            return false;
+        }
+        let around = Extent::of(line);
+        let mut is_in_it = |(Extent { min, max }, at): &(Extent, Point)| {
+            around.holds(*min) && around.holds(*max) && work.spend(line.len()) && ring::contains(line, *at)
+        };
+        self.0.iter().any(&mut is_in_it)
+    }
+}
+
+/// Reports a contour that should close. `closed` are the contours of its piece that do.
+fn open_contour(
+    marker: &Marker,
+    (piece, contour): (usize, &Contour),
+    closed: &Closed,
+    work: &mut Budget,
+    diagnostics: &mut Diagnostics,
+) {
     let first = first(&marker.list, contour.range);
     let [start, end] = marker.list.ends_of(contour.range);
     let gap = (end - start).norm();
     let length = || marker.list.walk(contour.range).map(|(_, segment)| segment.length()).sum::<f64>();
     let number = marker.pieces[piece].number;
     let points = marker.list.points(contour.range);
-    // Slashes and darts of a part are open on purpose.
-    let is_alone = || marker.pieces[piece].contours.iter().all(|contour| !contour.closed);
     if gap > NEAR_ENDS
         && let Some(Passing { off, past }) = comes_by(&points)
     {
@@ -292,18 +205,13 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint("end it at its first point if it should close; all of it is cut as it stands"));
     } else if marker.unit > 0.0 && gap < STRAIGHT_SHARE * length()
-        || marker.drawing.is_some() && gap > NEAR_ENDS && is_alone() && gap < BENT_SHARE * length()
+        || marker.drawing.is_some() && gap > NEAR_ENDS && closed.0.is_empty() && gap < BENT_SHARE * length()
         || gap < GAP_SHARE * length()
         || AROUND.iter().any(|[share, area]| gap < share * length() && goes_around(&points, area * length().powi(2)))
     {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
-        let extent = marker.list.extent(contour.range);
-        let is_in_it = |inner: &Contour| {
-            let Extent { min, max } = marker.list.extent(inner.range);
-            inner.closed && extent.holds(min) && extent.holds(max)
-        };
         let inner =
-            if marker.pieces[piece].contours.iter().any(is_in_it) { "; one in it is cut as a part" } else { "" };
+            if closed.any_in(&points, work) { "; a closed contour inside it is cut as a part of its own" } else { "" };
         let message = format!("a contour of piece {number} ends {size} mm from where it starts{inner}");
         let finding = Diagnostic::new(&code::MARKER_OPEN, message).at(first.span).about(vec![number]);
         diagnostics.push(finding.hint(if gap <= NEAR_ENDS || gap < GAP_SHARE * length() {

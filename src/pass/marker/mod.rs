@@ -6,6 +6,7 @@
 mod bite;
 mod centre;
 mod cut;
+mod far;
 mod inspect;
 mod long;
 mod near;

@@ -1,8 +1,8 @@
 //! Sides: joins strokes of an outline that run in different directions, or whose ends were rounded apart.
 //!
 //! A CAD system that writes each side of an outline separately may write it either way, and may round a corner twice: the next
-//! side then starts a unit of the file beside the end of the previous one. An outline in one stroke may end a unit beside its start. Both ends stand for
-//! one place within half a diagonal of a cell of the grid, and so does the middle between them.
+//! side then starts a unit of the file beside the end of the previous one. An outline in one stroke may end a unit beside its
+//! start. Both ends stand for one place within half a diagonal of a cell of the grid, and so does the middle between them.
 
 use crate::geom::{Point, ring};
 use crate::ir::list::{Range, Segment, SegmentList};
@@ -46,19 +46,25 @@ pub(super) fn join(list: &mut SegmentList, piece: &mut Piece, unit: f64, seam: f
 /// A copy of a range that is walked backwards, in list order.
 fn forwards(list: &mut SegmentList, range: Range) -> Range {
     let segments: Vec<Segment> = list.walk(range).map(|(_, segment)| segment).collect();
-    list.append(segments).unwrap_or(range)
+    list.append(segments).expect("a range is never empty")
 }
 
 /// The only other end beside each end, where each is the only one beside the other. The start of contour `k` is end 2 `k`, its
 /// end is 2 `k` + 1.
 fn partners(ends: &[Point], reach: f64) -> Vec<Option<usize>> {
+    // Rows of cells along X: ends beside one lie in its own row or in a neighbouring one, even if all have one X.
+    let row = |k: usize| (ends[k].y / reach).floor();
     let mut sorted: Vec<usize> = (0..ends.len()).collect();
-    sorted.sort_by(|&a, &b| ends[a].x.total_cmp(&ends[b].x));
+    sorted.sort_by(|&a, &b| row(a).total_cmp(&row(b)).then(ends[a].x.total_cmp(&ends[b].x)));
     let beside = |end: usize| {
         let at = ends[end];
-        let first = sorted.partition_point(|&k| ends[k].x < at.x - reach);
-        let near = sorted[first..].iter().copied().take_while(move |&k| ends[k].x <= at.x + reach);
-        let mut near = near.filter(move |&k| k != end && (ends[k] - at).norm() <= reach);
+        let near = [-1.0, 0.0, 1.0].into_iter().flat_map(|step| {
+            let of_row = row(end) + step;
+            let is_before = |&k: &usize| row(k) < of_row || row(k) <= of_row && ends[k].x < at.x - reach;
+            let first = sorted.partition_point(is_before);
+            sorted[first..].iter().copied().take_while(move |&k| row(k) <= of_row && ends[k].x <= at.x + reach)
+        });
+        let mut near = near.filter(|&k| k != end && (ends[k] - at).norm() <= reach);
         let only = near.next();
         if near.next().is_some() { None } else { only }
     };

@@ -16,13 +16,13 @@ pub(super) fn strays(marker: &Marker, piece: usize, part: &Outlines, work: &mut 
         return None;
     }
     let reach = Notch::MISS + marker.unit;
-    let (kind, strays) = if contours.iter().all(|contour| contour.closed) {
-        ("slit", loose_slits(&marker.pieces[piece].notches, part, reach, work))
-    } else {
-        ("short stroke", loose_strokes(marker, contours, part, reach, work))
-    };
-    let &(span, from) = strays.first()?;
-    let more = if strays.len() > 1 { format!(", and {} more", strays.len() - 1) } else { String::new() };
+    let slits = loose_slits(&marker.pieces[piece].notches, part, reach, work);
+    let is_closed = contours.iter().all(|contour| contour.closed);
+    let strokes = if is_closed { Vec::new() } else { loose_strokes(marker, contours, part, reach, work) };
+    let kind = if slits.is_empty() { "short stroke" } else { "slit" };
+    let count = slits.len() + strokes.len();
+    let (span, from) = slits.into_iter().chain(strokes).next()?;
+    let more = if count > 1 { format!(", and {} more", count - 1) } else { String::new() };
     let message = format!("a {kind} begins on no edge of piece {}{more}", marker.pieces[piece].number);
     let finding = Diagnostic::new(&code::MARKER_STRAY, message).at(span).on_cloth(from);
     Some(finding.hint("its place may be wrong: look where it is in the picture (`-t svg`)"))
@@ -63,18 +63,20 @@ fn loose_strokes(
 
 /// Slits that begin on no edge: neither on another slit nor across an edge, or inside and longer than any notch.
 fn loose_slits(slits: &[Notch], part: &Outlines, reach: f64, work: &mut Budget) -> Vec<(Span, Point)> {
-    let mut meets_edge = |ends: [Point; 2]| {
+    let meets_edge = |ends: [Point; 2], work: &mut Budget| {
         let mut edges = part.edges_near(Extent::of(&ends).grown(reach));
         edges.any(|edge| !work.spend(1) || polyline::distance_of_segments(ends, edge) <= reach)
     };
-    let is_branch = |slit: &Notch| {
+    let is_branch = |slit: &Notch, work: &mut Budget| {
         let mut others = slits.iter().filter(|other| other.root != slit.root);
-        others.any(|other| polyline::distance_to_segment(slit.root, other.root, other.tip) <= reach)
+        work.spend(slits.len())
+            && others.any(|other| polyline::distance_to_segment(slit.root, other.root, other.tip) <= reach)
     };
-    let mut is_loose = |slit: &&Notch| {
-        !meets_edge([slit.root; 2])
-            && (!meets_edge([slit.root, slit.tip]) && !is_branch(slit)
-                || slit.depth() > Notch::LONGEST && part.holds(slit.root))
+    let is_loose = |slit: &Notch, work: &mut Budget| {
+        !meets_edge([slit.root; 2], work)
+            && (!meets_edge([slit.root, slit.tip], work) && !is_branch(slit, work)
+                || slit.depth() > Notch::LONGEST && work.spend(part.points.len()) && part.holds(slit.root))
+            && !work.is_spent()
     };
-    slits.iter().filter(&mut is_loose).map(|slit| (slit.span, slit.root)).collect()
+    slits.iter().filter(|slit| is_loose(slit, work)).map(|slit| (slit.span, slit.root)).collect()
 }
