@@ -19,6 +19,8 @@ pub struct Drawing {
     pub unread: Vec<Unread>,
     /// Encoded polylines in the order of the file.
     pub encoded: Vec<Encoded>,
+    /// Rows of places that the pen passes in the air as if it drew an outline.
+    pub passed: Vec<Vec<Vertex>>,
     /// Grid of the numbers in the file, mm; 0 when they are not rounded.
     pub unit: f64,
     /// End of the file.

@@ -13,7 +13,8 @@
 //!   `remains` and `enclosed` the outlines that are not whole, `marks` and `strokes` the notches, `signs` the arrows and crosses
 //!   among them, `letters` the letters and `seam` the seam lines. `line` has the table of classes and of when each is cut, `pens`
 //!   the meaning of pens, `layers` that of layers. `parts` finds the lines in parts.
-//! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `torn` outlines whose numbers have lost a byte.
+//! - Results: `piece` makes the marker. `shared` refuses parts that are lost, `passed` outlines that the pen passes in the
+//!   air, `torn` those whose numbers have lost a byte.
 //!   `say` reports doubts about the drawing, `doubts` those about pieces, `size` sizes beyond any table.
 
 mod again;
@@ -34,6 +35,7 @@ mod meeting;
 mod nest;
 mod nodes;
 mod parts;
+mod passed;
 mod pens;
 mod piece;
 mod remains;
@@ -81,7 +83,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     (moved.doubled, moved.repeated) = (in_order.doubled, in_order.repeated);
     close::close(&mut lines, &mut drawing.vertices, close::Reach::of(drawing.unit, job));
     twins::mark(&mut lines, &drawing.vertices, sheet::band(drawing.unit), &mut work);
-    let Drawing { vertices, pens, texts, encoded, unit, ending, .. } = drawing;
+    let Drawing { vertices, pens, texts, encoded, passed, unit, ending, .. } = drawing;
     let mut sheet = Sheet {
         vertices,
         lines,
@@ -94,6 +96,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
         pens,
         texts,
         encoded,
+        passed,
         unit,
         ending,
         moved,

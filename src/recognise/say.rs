@@ -10,6 +10,7 @@ use super::line::{Class, Line, SMALL_OUTLINE};
 use super::marks::{EdgeLine, Lie};
 use super::nest::middle;
 use super::parts::Parts;
+use super::passed;
 use super::pens::Use;
 use super::piece::owners;
 use super::sheet::{self, Sheet};
@@ -59,6 +60,9 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     {
         out.push(finding);
         return;
+    }
+    if !job.lines.all {
+        passed::outlines(sheet).into_iter().for_each(|finding| out.push(finding));
     }
     match frame_or_part(sheet, job) {
         Some(finding) => out.push(finding),

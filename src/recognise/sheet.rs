@@ -53,6 +53,8 @@ pub(super) struct Sheet {
     pub(super) texts: Vec<Label>,
     /// Encoded polylines.
     pub(super) encoded: Vec<Encoded>,
+    /// Rows of places that the pen passes in the air as if it drew an outline.
+    pub(super) passed: Vec<Vec<Vertex>>,
     pub(super) unit: f64,
     pub(super) ending: Ending,
     pub(super) moved: Moved,

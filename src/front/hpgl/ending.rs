@@ -5,7 +5,7 @@ use super::instruction::Instruction;
 use super::plotter::Plotter;
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, code};
-use crate::ir::drawing::Ending;
+use crate::ir::drawing::{Ending, Vertex};
 use crate::source::Span;
 
 /// The last statement of a plot.
@@ -68,9 +68,12 @@ fn no_end(message: String, span: Span) -> Diagnostic {
 /// Places in a row where the pen is up, and nothing is drawn.
 #[derive(Debug, Default)]
 pub(super) struct AirMoves {
-    /// The places of the current row.
+    /// The places of the current row, mm, and those of them that the moves of an instruction lead to.
+    row: Vec<Vertex>,
     places: Vec<[f64; 2]>,
     rows: Count,
+    /// The rows, each from where an outline would begin, mm.
+    pub(super) outlines: Vec<Vec<Vertex>>,
     /// True if the last place of the row is a start of something: passed with the pen up, and not where pens are parked.
     awaits: bool,
     /// Move of the current row away from such a place.
@@ -89,6 +92,13 @@ const LEAST_PLACES: usize = 3;
 const LOOKED_AT: usize = 1000;
 
 impl AirMoves {
+    /// Records a place of an instruction with the pen up.
+    pub(super) fn go(&mut self, to: Vertex) {
+        if self.row.last().is_none_or(|last| last.at != to.at) {
+            self.row.push(to);
+        }
+    }
+
     /// Records the moves of an instruction with the pen up: their number, and the place that they lead to.
     pub(super) fn pass(&mut self, moves: usize, to: [f64; 2], span: Span) {
         if moves == 0 || moves == 1 && self.places.last() == Some(&to) {
@@ -98,11 +108,21 @@ impl AirMoves {
         if moves >= LEAST_PLACES || is_back() {
             self.rows.add(span);
             self.places.clear();
+            self.end_outline(moves);
         } else if self.awaits && !to.contains(&0.0) {
             self.left.get_or_insert(span);
         }
         self.awaits = !to.contains(&0.0);
         self.places.push(to);
+    }
+
+    /// Ends the row with an outline: back at one of its places, or the moves of one instruction and the place before them.
+    fn end_outline(&mut self, moves: usize) {
+        let Some(last) = self.row.last().copied() else { return };
+        let back = self.row.iter().rev().skip(1).take(LOOKED_AT.max(moves)).position(|vertex| vertex.at == last.at);
+        let places = back.map_or(moves, |back| back + 1);
+        self.outlines.push(self.row.split_off(self.row.len().saturating_sub(places + 1)));
+        self.row = vec![last];
     }
 
     /// The pen is changed: programs lead it aside before.
@@ -124,12 +144,14 @@ impl AirMoves {
             self.lefts.add(span);
         }
         self.places.clear();
+        self.row.clear();
     }
 
     /// Ends a row, and begins another one at its last place: an outline that begins there ends there, too.
-    pub(super) fn settle_at(&mut self, at: [f64; 2]) {
+    pub(super) fn settle_at(&mut self, at: [f64; 2], place: Vertex) {
         self.settle();
         self.places.push(at);
+        self.row.push(place);
     }
 
     /// The finding on the rows.
@@ -144,8 +166,6 @@ impl AirMoves {
         }
         let message = format!("places in a row are passed with the pen up; this happens {}", self.rows.times());
         let finding = self.rows.diagnostic(&code::HPGL_UNCUT_PLACES, message);
-        Some(
-            finding.hint("a PD may have become PU or PA: then a piece or a mark is lost; look at the picture (-t svg)"),
-        )
+        Some(finding.hint("a PD may have become PU or PA: then a piece or mark is lost; look at the picture (-t svg)"))
     }
 }

@@ -52,6 +52,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
     lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
     let mut drawing = lowering.plotter.drawing;
     drawing.texts = lowering.labels;
+    drawing.passed = lowering.tally.air.outlines;
     drawing
 }
 
@@ -100,7 +101,7 @@ impl Lowering<'_> {
                     };
                     self.tally.surplus.see(mnemonic, span, amid, &self.reader);
                     if serves_place(mnemonic) {
-                        self.tally.air.settle_at(self.plotter.at());
+                        self.tally.air.settle_at(self.plotter.at(), self.plotter.vertex(span));
                     } else if instruction == Instruction::Pen {
                         self.tally.air.pause();
                     }
@@ -183,7 +184,7 @@ impl Lowering<'_> {
             Instruction::Down => {
                 self.plotter.lower(span);
                 if self.moves() == 0 {
-                    self.tally.air.settle_at(self.plotter.at());
+                    self.tally.air.settle_at(self.plotter.at(), self.plotter.vertex(span));
                 }
             }
             Instruction::Up => {
@@ -398,6 +399,9 @@ impl Lowering<'_> {
                 let outcome = self.plotter.lead(to, span);
                 self.check(outcome, span);
                 self.plotter.settle_by_mode();
+                if !self.plotter.is_drawing() {
+                    self.tally.air.go(self.plotter.vertex(span));
+                }
                 places += 1;
             }
             if !self.reader.pass_query() {

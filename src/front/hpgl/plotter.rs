@@ -5,7 +5,7 @@ use super::scale::{Frame, Pair};
 use super::syntax::VALUE_MAX;
 use crate::geom::Point;
 use crate::ir::Drawing;
-use crate::ir::drawing::Encoded;
+use crate::ir::drawing::{Encoded, Vertex};
 use crate::source::Span;
 
 /// The pen that draws if the file selects none, as many files do.
@@ -201,6 +201,11 @@ impl Plotter {
     /// Its place, mm.
     pub(super) fn place(&self) -> Point {
         self.point(self.at)
+    }
+
+    /// Its place, mm, to which something in the source led.
+    pub(super) fn vertex(&self, span: Span) -> Vertex {
+        Vertex { at: self.place(), span }
     }
 
     /// Its place, in units of the plotter.

@@ -3,6 +3,7 @@
 use cutc::diagnostic::Diagnostics;
 use cutc::front::by_name;
 use cutc::machine::Job;
+use cutc::machine::plot::PenUse;
 use cutc::pipeline;
 
 use super::closing::areas;
@@ -424,4 +425,36 @@ fn instructions_with_more_numbers_than_they_take_are_errors() {
     ] {
         assert!(!is_refused(usual), "{usual}");
     }
+}
+
+/// The line in a lost outline is a seam line or a cut-out, and is never cut in its place.
+#[test]
+fn an_outline_that_is_passed_in_the_air_around_a_line_is_refused() {
+    let found = |plot: &str, job: &Job| read(&source(format!("IN;SP1;{plot}PU;SP0;")), job).1;
+    let is_refused = |plot: &str| found(plot, &Job::default()).contains(&"drawing/passed-outline");
+    let (other, seam) = (rectangle(16_000, 0, 12_000, 8000), rectangle(400, 400, 11_200, 7200));
+    let windows = [rectangle(800, 800, 2000, 2000), rectangle(6000, 800, 2000, 2000)].concat();
+    let passed = [
+        "PU0,0;PU12000,0,12000,8000,0,8000,0,0;",
+        "PU;PA0,0;PA12000,0;PA12000,8000;PA0,8000;PA0,0;",
+        "PU0,0;PR12000,0,0,8000,-12000,0,0,-8000;PA;",
+        "PU0,0;PU12000,0;VS40;PU12000,8000;PU0,8000;PU0,0;",
+    ];
+    for outline in passed {
+        for inside in [&seam, &windows] {
+            assert!(is_refused(&format!("{outline}{inside}{other}")), "{outline}{inside}");
+            assert!(is_refused(&format!("{other}{outline}{inside}")), "{outline}{inside}");
+        }
+        assert!(!is_refused(&format!("{outline}{other}")), "{outline}: nothing in it");
+        assert!(!is_refused(&format!("{outline}{windows}")), "{outline}: the way around a page");
+    }
+    let row = |k: i64| rectangle(3000 * k, 200, 2000, 2000);
+    let parts = (0..4).map(row).collect::<Vec<_>>().concat();
+    assert!(!is_refused(&format!("{}{parts}{other}", passed[0])), "the way around a page of a longer plot");
+    let mut job = Job::default();
+    job.profile.hpgl.pens.insert("1".to_owned(), PenUse::Knife);
+    assert!(
+        !found(&format!("{}{seam}{other}", passed[0]), &job).contains(&"drawing/passed-outline"),
+        "a knife by name"
+    );
 }
