@@ -9,14 +9,11 @@
 //! precision, and the jerk of grblHAL's `ENABLE_JERK_ACCELERATION`, which is off unless built in. `tests/bench/grbl_time.py`
 //! compares the times with those of a simulation by small steps of time.
 
-use super::buffer::Block;
-use super::planner::{Move, Planner};
-use super::queue::{Axis, Queue, axes, norm, slowest};
-use crate::back::target::{Limit, Spent};
-use crate::geom::Vector;
-use crate::machine::Job;
-use crate::machine::gcode::{Gcode, Outputs, Step};
-use crate::units::{S_PER_MIN, deg};
+use super::axes::{norm, slowest};
+use super::blocks::{self, Joint, Rules};
+use super::planner::Move;
+use crate::machine::gcode::Gcode;
+use crate::units::S_PER_MIN;
 
 /// Cosine of the angle between two directions above which they are one, and below whose negative they are opposite.
 const STRAIGHT: f64 = 0.999_999;
@@ -25,124 +22,38 @@ const MOST_CHORDS: f64 = 65_535.0;
 /// Least speed of a block: 1 mm/min.
 const SPEED_MIN: f64 = 1.0 / S_PER_MIN;
 
-/// Planner with the blocks since the last rest.
+/// Planner of the family.
+pub(super) type Pace = blocks::Pace<Grbl>;
+
+/// Rules of the family.
 #[derive(Debug)]
-pub(super) struct Pace {
-    keys: Gcode,
-    /// Limits of the axes with the knife down, and with the knife up.
-    axes: [[Axis; 4]; 2],
-    /// Place of Z, mm; `None` before its first move.
-    z: Option<f64>,
-    queue: Queue,
-    /// Direction of the last block.
-    along: [f64; 4],
-}
+pub(super) struct Grbl;
 
-/// A block as it is asked for.
-struct Asked {
-    /// Distances along the axes, mm and degrees.
-    ways: [f64; 4],
-    /// Speed along it, per s; infinite for rapid moves.
-    speed: f64,
-    limit: Limit,
-    is_line: bool,
-}
-
-impl Pace {
-    pub(super) fn new(job: &Job) -> Self {
-        let keys = job.profile.gcode.clone();
-        let queue = Queue::new(&keys);
-        Self { keys, axes: axes(job), z: None, queue, along: [0.0; 4] }
+impl Rules for Grbl {
+    fn length(ways: [f64; 4]) -> f64 {
+        norm(ways)
     }
 
-    /// Adds a block with the limits of the axes along it.
-    fn push(&mut self, asked: &Asked) {
-        let length = norm(asked.ways);
-        if length == 0.0 {
-            return;
-        }
-        let along = asked.ways.map(|way| way / length);
-        let axes = self.axes[usize::from(asked.speed.is_infinite())];
-        let (most, axis) = slowest(along, axes.map(|axis| axis.speed));
-        let (acceleration, ramp) = slowest(along, axes.map(|axis| axis.acceleration));
-        let limit = if most < asked.speed { Limit::Speed(axis) } else { asked.limit };
-        let speed = most.min(asked.speed).max(SPEED_MIN);
-        let entry = self.queue.blocks.last().map_or(0.0, |before| {
-            let corner =
-                junction([self.along, along], axes.map(|axis| axis.acceleration), self.keys.junction_deviation_mm);
-            corner.min(before.speed.min(speed).powi(2))
-        });
-        let block = Block { length, speed, acceleration, entry, is_line: asked.is_line };
-        self.queue.push(block, [limit, Limit::Acceleration(ramp)]);
-        self.along = along;
+    fn speed(asked: f64, most: f64) -> f64 {
+        most.min(asked).max(SPEED_MIN)
     }
 
-    /// Adds the chords of an arc.
-    fn arc(&mut self, step: &Move, turn: f64, speed: f64) {
-        let (radius, sweep) = (step.curvature.abs().recip(), step.length * step.curvature);
-        let tolerance = self.keys.arc_tolerance_mm;
+    /// F counts X and Y; the block is longer by the turn.
+    fn feed(step: &Move, turn: f64) -> f64 {
+        let ratio = if step.length > 0.0 { step.length.hypot(turn) / step.length } else { 1.0 };
+        step.feed.speed * ratio
+    }
+
+    fn chords(keys: &Gcode, step: &Move) -> f64 {
+        let (radius, tolerance) = (step.curvature.abs().recip(), keys.arc_tolerance_mm);
         let half = (tolerance * (2.0 * radius - tolerance)).max(0.0).sqrt();
         // An arc of a radius below half the tolerance is one chord.
-        let count = if half > 0.0 { (0.5 * step.length / half).floor().clamp(1.0, MOST_CHORDS) } else { 1.0 };
-        let angle = sweep / count;
-        let length = 2.0 * radius * (0.5 * angle.abs()).sin();
-        for i in 0..count as usize {
-            let (sin, cos) = ((i as f64 + 0.5) * angle).sin_cos();
-            let along = step.along[0];
-            let chord = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos) * length;
-            let ways = [chord.x, chord.y, 0.0, turn / count];
-            self.push(&Asked { ways, speed, limit: step.feed.limit, is_line: i == 0 });
-        }
+        if half > 0.0 { (0.5 * step.length / half).floor().clamp(1.0, MOST_CHORDS) } else { 1.0 }
     }
 
-    /// Moves Z. Its first move starts from an unknown place and takes no time, like all of them without its limits.
-    fn lift(&mut self, to: f64, feed_mm_min: Option<f64>) {
-        let way = self.z.replace(to).map_or(0.0, |from| to - from);
-        if self.keys.z_speed_mm_s.is_none() || self.keys.z_acceleration_mm_s2.is_none() {
-            self.queue.stop();
-            return;
-        }
-        let speed = feed_mm_min.map_or(f64::INFINITY, |feed| feed / S_PER_MIN);
-        self.push(&Asked { ways: [0.0, 0.0, way, 0.0], speed, limit: Limit::Speed('z'), is_line: true });
-    }
-}
-
-impl Planner for Pace {
-    fn go(&mut self, step: &Move) {
-        let [x, y, c] = step.ways;
-        let turn = deg(c);
-        let ratio = if step.length > 0.0 { step.length.hypot(turn) / step.length } else { 1.0 };
-        let speed = step.feed.speed * ratio;
-        if step.curvature == 0.0 {
-            self.push(&Asked { ways: [x, y, 0.0, turn], speed, limit: step.feed.limit, is_line: true });
-        } else {
-            self.arc(step, turn, speed);
-        }
-    }
-
-    fn steps(&mut self, steps: &[Step]) {
-        for step in steps {
-            match step {
-                Step::Z { to_mm, feed_mm_min } => self.lift(*to_mm, *feed_mm_min),
-                Step::Dwell { time } => self.queue.wait(*time),
-                // Outputs that are switched when they are read leave the moves before them running.
-                _ if self.keys.outputs == Outputs::Immediate && step.switches_when_read() => {}
-                Step::Output { .. } | Step::Code { .. } => self.queue.stop(),
-            }
-        }
-    }
-
-    fn wait(&mut self, time: f64) {
-        self.queue.wait(time);
-    }
-
-    /// F does not change the speeds of junctions.
-    fn best_speed(&self, _: f64, _: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    fn finish(&mut self) -> Spent {
-        self.queue.finish()
+    fn junction(keys: &Gcode, &Joint { along, speed, axes }: &Joint) -> f64 {
+        let corner = junction(along, axes.map(|axis| axis.acceleration), keys.junction_deviation_mm);
+        corner.min(speed.powi(2))
     }
 }
 
@@ -166,10 +77,12 @@ fn junction([before, after]: [[f64; 4]; 2], accelerations: [f64; 4], deviation: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::back::gcode::pace::planner::Feed;
-    use crate::geom::left;
-    use crate::machine::gcode::Planner as Kind;
-    use crate::units::rad;
+    use crate::back::gcode::pace::planner::{Feed, Planner};
+    use crate::back::target::Limit;
+    use crate::geom::{Vector, left};
+    use crate::machine::Job;
+    use crate::machine::gcode::{Outputs, Planner as Kind, Step};
+    use crate::units::{deg, rad};
 
     /// A controller with Z whose C axis takes 1000 degrees/s and 10,000 degrees/s2, X and Y 500 mm/s and 4000 mm/s2.
     fn pace() -> Pace {

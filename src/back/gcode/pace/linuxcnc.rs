@@ -8,11 +8,14 @@
 //! `blendmath.c`, `emccanon.cc`) as closed-form formulas; cycles are not simulated.
 
 use super::buffer::{Block, Supply, durations};
-use super::planner::{AXES, Move, Planner, sorted, spend};
+use super::planner::{Move, Planner, sorted, spend};
 use crate::back::target::{Limit, Spent};
 use crate::geom::{Vector, left};
 use crate::machine::gcode::Step;
 use crate::machine::{Job, Limits};
+
+/// Letters of the axes, in the order of their distances.
+const AXES: [char; 3] = ['x', 'y', 'c'];
 
 /// Fraction of the acceleration that an arc may use towards its centre, and the fraction then available along it.
 const NORMAL_SHARE: f64 = 0.866_025_403_784_438_6;

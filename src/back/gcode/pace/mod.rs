@@ -3,6 +3,8 @@
 //! `gcode.planner` chooses the planner. A planner is given the moves of the program and the steps between them, in order; it
 //! simulates how the controller carries them out.
 
+mod axes;
+mod blocks;
 mod buffer;
 mod grbl;
 mod linuxcnc;

@@ -4,9 +4,6 @@ use crate::back::target::{Limit, Spent};
 use crate::geom::Vector;
 use crate::machine::gcode::Step;
 
-/// Letters of the axes, in the order of their distances.
-pub(super) const AXES: [char; 3] = ['x', 'y', 'c'];
-
 /// A move of the axes, as written in the program.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::back::gcode) struct Move {

@@ -10,14 +10,10 @@
 //! rotary axis turns evenly. Not considered are blocks that are prepared 50 ms ahead and no longer change, input shaping, and
 //! the acceleration limits of M204.
 
-use super::buffer::Block;
-use super::planner::{Move, Planner};
-use super::queue::{Axis, Queue, axes, norm, slowest};
-use crate::back::target::{Limit, Spent};
-use crate::geom::Vector;
-use crate::machine::Job;
-use crate::machine::gcode::{Gcode, Outputs, Step};
-use crate::units::{S_PER_MIN, deg};
+use super::axes::{norm, slowest};
+use super::blocks::{self, Joint, Rules};
+use super::planner::Move;
+use crate::machine::gcode::Gcode;
 
 /// Deviation of a chord from its arc, mm, its shortest and its longest length, mm, and the greatest number of chords a second
 /// (`MaxArcDeviation`, `MinArcSegmentLength`, `MaxArcSegmentLength`, `MaxArcSegmentsPerSec`).
@@ -30,139 +26,55 @@ const ROUNDED_UP: f64 = 0.8;
 /// Least speed of a block, mm/s (`DefaultMinFeedrate`).
 const SPEED_MIN: f64 = 0.5;
 
-/// Planner with the blocks since the last rest.
+/// Planner of the firmware.
+pub(super) type Pace = blocks::Pace<Reprap>;
+
+/// Rules of the firmware.
 #[derive(Debug)]
-pub(super) struct Pace {
-    keys: Gcode,
-    axes: [[Axis; 4]; 2],
-    /// Place of Z, mm; `None` before its first move.
-    z: Option<f64>,
-    queue: Queue,
-    /// Distances of the axes in the last block by its length, and whether X or Y moves in it.
-    along: [f64; 4],
-    moves_xy: bool,
-}
+pub(super) struct Reprap;
 
-/// A block as it is asked for.
-struct Asked {
-    /// Distances along the axes, mm and degrees.
-    ways: [f64; 4],
-    /// Speed of the linear axes, mm/s; infinite for rapid moves.
-    speed: f64,
-    limit: Limit,
-    is_line: bool,
-}
-
-impl Pace {
-    pub(super) fn new(job: &Job) -> Self {
-        let keys = job.profile.gcode.clone();
-        let queue = Queue::new(&keys);
-        Self { keys, axes: axes(job), z: None, queue, along: [0.0; 4], moves_xy: false }
-    }
-
-    /// Adds a block with the limits of the axes along it.
-    fn push(&mut self, asked: &Asked) {
-        let [x, y, z, c] = asked.ways;
+impl Rules for Reprap {
+    fn length([x, y, z, c]: [f64; 4]) -> f64 {
         let linear = norm([x, y, z, 0.0]);
-        let length = if linear > 0.0 { linear } else { c.abs() };
-        if length == 0.0 {
-            return;
-        }
-        let along = asked.ways.map(|way| way / length);
-        let axes = self.axes[usize::from(asked.speed.is_infinite())];
-        let (most, axis) = slowest(along, axes.map(|axis| axis.speed));
-        let (acceleration, ramp) = slowest(along, axes.map(|axis| axis.acceleration));
-        let limit = if most < asked.speed { Limit::Speed(axis) } else { asked.limit };
-        let speed = asked.speed.max(SPEED_MIN).min(most);
-        let moves_xy = x != 0.0 || y != 0.0;
-        let entry = match self.queue.blocks.last() {
-            Some(before) if self.moves_xy == moves_xy => self.junction(along).min(before.speed).min(speed),
-            Some(_) | None => 0.0,
-        };
-        let block = Block { length, speed, acceleration, entry: entry * entry, is_line: asked.is_line };
-        self.queue.push(block, [limit, Limit::Acceleration(ramp)]);
-        (self.along, self.moves_xy) = (along, moves_xy);
+        if linear > 0.0 { linear } else { c.abs() }
     }
 
-    /// Greatest speed from the last block to one with a direction.
-    fn junction(&self, along: [f64; 4]) -> f64 {
-        let Gcode { jump_mm_s, jump_deg_s, .. } = self.keys;
-        let jumps = [jump_mm_s, jump_mm_s, jump_mm_s, jump_deg_s];
-        let change = std::array::from_fn(|axis| along[axis] - self.along[axis]);
-        slowest(change, jumps).0
+    fn speed(asked: f64, most: f64) -> f64 {
+        asked.max(SPEED_MIN).min(most)
     }
 
-    /// Adds the chords of an arc.
-    fn arc(&mut self, step: &Move, turn: f64) {
-        let (radius, sweep) = (step.curvature.abs().recip(), step.length * step.curvature);
+    /// F counts the linear axes, as the length of the block does.
+    fn feed(step: &Move, _: f64) -> f64 {
+        step.feed.speed
+    }
+
+    fn chords(_: &Gcode, step: &Move) -> f64 {
+        let radius = step.curvature.abs().recip();
         let chord = (8.0 * radius * ARC_DEVIATION).sqrt().min(step.feed.speed / CHORDS_S).clamp(CHORD_MIN, CHORD_MAX);
-        let count = (step.length / chord + ROUNDED_UP).floor().max(1.0);
-        let angle = sweep / count;
-        let length = 2.0 * radius * (0.5 * angle.abs()).sin();
-        for i in 0..count as usize {
-            let (sin, cos) = ((i as f64 + 0.5) * angle).sin_cos();
-            let along = step.along[0];
-            let chord = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos) * length;
-            let ways = [chord.x, chord.y, 0.0, turn / count];
-            self.push(&Asked { ways, speed: step.feed.speed, limit: step.feed.limit, is_line: i == 0 });
+        (step.length / chord + ROUNDED_UP).floor().max(1.0)
+    }
+
+    fn junction(keys: &Gcode, &Joint { along: [before, after], speed, .. }: &Joint) -> f64 {
+        let moves_xy = |[x, y, ..]: [f64; 4]| x != 0.0 || y != 0.0;
+        if moves_xy(before) != moves_xy(after) {
+            return 0.0;
         }
-    }
-
-    /// Moves Z. Its first move starts from an unknown place and takes no time, like all of them without its limits.
-    fn lift(&mut self, to: f64, feed_mm_min: Option<f64>) {
-        let way = self.z.replace(to).map_or(0.0, |from| to - from);
-        if self.keys.z_speed_mm_s.is_none() || self.keys.z_acceleration_mm_s2.is_none() {
-            self.queue.stop();
-            return;
-        }
-        let speed = feed_mm_min.map_or(f64::INFINITY, |feed| feed / S_PER_MIN);
-        self.push(&Asked { ways: [0.0, 0.0, way, 0.0], speed, limit: Limit::Speed('z'), is_line: true });
-    }
-}
-
-impl Planner for Pace {
-    fn go(&mut self, step: &Move) {
-        let [x, y, c] = step.ways;
-        let turn = deg(c);
-        if step.curvature == 0.0 {
-            let Move { feed, .. } = *step;
-            self.push(&Asked { ways: [x, y, 0.0, turn], speed: feed.speed, limit: feed.limit, is_line: true });
-        } else {
-            self.arc(step, turn);
-        }
-    }
-
-    fn steps(&mut self, steps: &[Step]) {
-        for step in steps {
-            match step {
-                Step::Z { to_mm, feed_mm_min } => self.lift(*to_mm, *feed_mm_min),
-                Step::Dwell { time } => self.queue.wait(*time),
-                // Outputs that are switched when they are read leave the moves before them running.
-                _ if self.keys.outputs == Outputs::Immediate && step.switches_when_read() => {}
-                Step::Output { .. } | Step::Code { .. } => self.queue.stop(),
-            }
-        }
-    }
-
-    fn wait(&mut self, time: f64) {
-        self.queue.wait(time);
-    }
-
-    /// F does not change the speeds of junctions.
-    fn best_speed(&self, _: f64, _: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    fn finish(&mut self) -> Spent {
-        self.queue.finish()
+        let Gcode { jump_mm_s, jump_deg_s, .. } = *keys;
+        let jumps = [jump_mm_s, jump_mm_s, jump_mm_s, jump_deg_s];
+        let change = std::array::from_fn(|axis| after[axis] - before[axis]);
+        slowest(change, jumps).0.min(speed).powi(2)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::back::gcode::pace::planner::Feed;
-    use crate::geom::left;
+    use crate::back::gcode::pace::axes::Axis;
+    use crate::back::gcode::pace::planner::{Feed, Planner};
+    use crate::back::target::Limit;
+    use crate::geom::{Vector, left};
+    use crate::machine::Job;
+    use crate::machine::gcode::Step;
     use crate::units::rad;
 
     /// A controller whose X and Y take 500 mm/s and 4000 mm/s2, and jump by 10 mm/s; its C axis 1000 degrees/s, 10,000 degrees/s2
