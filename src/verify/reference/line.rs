@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::caps::{BothWays, Pick, Way};
 use super::vertex::Vertex;
-use crate::geom::{Point, Vector, angle, left, polyline};
+use crate::geom::{Point, Vector, angle, cross, left, polyline};
 
 /// Cut of the marker that a line belongs to.
 #[derive(Debug, Clone, Copy)]
@@ -114,15 +114,12 @@ impl Chord {
         if self.length == 0.0 {
             return (from.norm(), self.start);
         }
-        let way = from.dot(&self.along).clamp(0.0, self.length);
-        let away = from - self.along * way;
-        if self.height == 0.0 {
-            return (away.norm(), self.start + way);
-        }
-        let (share, left) = (way / self.length, left(self.along));
+        let (ahead, aside) = (from.dot(&self.along), cross(self.along, from));
+        let way = ahead.clamp(0.0, self.length);
+        let share = way / self.length;
         let height = self.height * (4.0 * share * (1.0 - share));
-        let used = away.dot(&left).clamp(height.min(0.0), height.max(0.0));
-        ((away - left * used).norm(), self.start + way)
+        let used = if height > 0.0 { aside.clamp(0.0, height) } else { aside.clamp(height, 0.0) };
+        (Vector::new(ahead - way, aside - used).norm(), self.start + way)
     }
 }
 
