@@ -61,8 +61,10 @@ pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         out.push(finding);
         return;
     }
-    if !job.lines.all {
-        passed::outlines(sheet).into_iter().for_each(|finding| out.push(finding));
+    if !job.lines.all
+        && let Some(finding) = passed::outlines(sheet)
+    {
+        out.push(finding);
     }
     match frame_or_part(sheet, job) {
         Some(finding) => out.push(finding),

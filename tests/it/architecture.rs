@@ -169,6 +169,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("junctions", "tells which chords come by a junction, for the pass that keeps the tip near its line there"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("pass", "says what a pass is"),
+    ("bow", "tells how far an edge bows away from a blade that plunges beside a slit, for `root`"),
     ("root", "tells how far a slit goes past its root, for the pass that lays overlaps"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),

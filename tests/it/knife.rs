@@ -159,6 +159,18 @@ fn darts_hems_castles_and_parts_in_cut_outs_are_cut_by_every_blade_and_what_harm
     }
 }
 
+/// A blade that plunges at the corner beside the slit stands as a chord of the curve, and cuts 0.17 mm outside of its root.
+#[test]
+fn a_slit_meets_its_edge_where_that_bows_away_from_a_plunged_blade() {
+    for (width, tolerance) in [(6.6, 0.05), (6.6, 0.02), (6.0, 0.05), (3.0, 0.05)] {
+        let mut job = Job::default();
+        job.profile.knife.width_mm = width;
+        job.profile.knife.back_mm = Some(width - 0.25);
+        job.profile.path.tolerance_mm = Some(tolerance);
+        compile("iso/slit-amid-a-short-curve.cut", &job);
+    }
+}
+
 #[test]
 fn a_cut_out_that_is_a_piece_of_its_own_nicks_the_part_around_it_by_one_tolerance() {
     let job = Job::default();

@@ -4,6 +4,7 @@
 //! it. They take the cloth around it, the [`Scene`], into account: an overlap goes into the waste.
 
 mod bend;
+mod bow;
 mod continuation;
 mod corner;
 mod down;

@@ -1,8 +1,9 @@
 //! Extension of a slit past its root, so that it meets the cut of the edge where it begins.
 //!
 //! Slit and edge may be cut off their lines to opposite sides: each by the tolerance, the edge also by the sagitta of its chord
-//! where that stands for a curve.
+//! where that stands for a curve, and by as much as the curve bows away from a blade that plunges at a corner beside the root.
 
+use super::bow::Edge;
 use super::scene::Scene;
 use crate::analysis::bulge::bulge;
 use crate::geom::{Point, Vector, cross, polyline};
@@ -27,7 +28,11 @@ pub(super) fn reach(root: Point, along: Vector, part: u32, tolerance: f64, scene
         let away = |i: usize| polyline::distance_to_segment(root, points[i], points[i + 1]);
         let chords = (0..points.len() - 1).filter(|&i| away(i) <= profile.verify.max_uncut_mm);
         let sine = |i: usize| polyline::direction(points[i], points[i + 1]).map_or(0.0, |way| cross(way, along).abs());
-        chords.map(|i| (away(i) + sagitta(points, i, scene) + tolerance) / sine(i).max(LEAST_SINE)).reduce(f64::max)
+        let reach = |i: usize| {
+            let bow = Edge { points, scene }.bow(i, root, along);
+            bow + (away(i) + sagitta(points, i, scene) + tolerance) / sine(i).max(LEAST_SINE)
+        };
+        chords.map(reach).reduce(f64::max)
     };
     let reaches = edges.filter_map(|cut| beside(&scene.marker.list.points(cut.range)));
     let longest = profile.knife.most_overlaps().into_iter().fold(0.0, f64::max) + tolerance;
