@@ -4,6 +4,7 @@
 //! lay, plan and write: it counts pulses, measures intervals and decodes records itself. Never repairs anything.
 
 mod clock;
+mod curve;
 mod decoders;
 mod events;
 mod ground;
@@ -16,6 +17,7 @@ mod pulses;
 mod queue;
 mod records;
 mod rules;
+mod satin;
 mod spindle;
 mod stitch_file;
 
@@ -55,6 +57,9 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
     laid::judge(ground, &mut worst);
     original::judge(ground, &mut worst);
     placed::judge(ground, &mut worst);
+    if let Some(drawn) = ground.drawn {
+        curve::judge(drawn, ground.profile.tolerance(0.0), &mut worst);
+    }
     let read = match bytes {
         Bytes::PulseRows => {
             pulses::judge(|each| pulse_rows::read(input, each), pulse_rows::TICK_US, ground, &mut worst)
