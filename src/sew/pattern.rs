@@ -75,6 +75,8 @@ pub struct Seam {
     pub rpm: Option<f64>,
     /// Number of its thread, from 1.
     pub thread: u16,
+    /// Its number in the sewing order; `None` for a seam that is sewn after all that have one.
+    pub order: Option<u16>,
     /// True if the machine waits for its operator before the seam.
     pub stop: bool,
     /// Location of its start in the source.
@@ -85,7 +87,20 @@ impl Seam {
     /// A straight seam of the first thread.
     pub fn plain(points: Vec<Point>, span: Span) -> Self {
         let (shape, marks, element, ends) = (Shape::Line, Vec::new(), Element::Straight, [None; 2]);
-        Self { points, shape, marks, element, ends, pitch: None, width: None, rpm: None, thread: 1, stop: false, span }
+        Self {
+            points,
+            shape,
+            marks,
+            element,
+            ends,
+            pitch: None,
+            width: None,
+            rpm: None,
+            thread: 1,
+            order: None,
+            stop: false,
+            span,
+        }
     }
 
     /// True if the seam ends at its start.

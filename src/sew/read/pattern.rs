@@ -2,7 +2,7 @@
 //!
 //! The third field of the first row of a seam gives its element: `straight`, `zigzag`, `bar-tack`, `box-x`, `satin` or `eyelet`.
 //! After a blank, `arc` or `circle` for its shape, `tie`, `back-tack` or `open` for its ends, also of one alone as in `end open`, `pitch 3`, `width 4`, `speed 1200`,
-//! `thread 2` and `stop` may follow. An empty field is a straight seam with the defaults of the profile.
+//! `thread 2`, `order 1` and `stop` may follow. An empty field is a straight seam with the defaults of the profile.
 
 use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -39,6 +39,8 @@ const THREAD: &str = "thread";
 /// Name of the shape of a seam in messages.
 const SHAPE: &str = "the shape";
 const STOP: &str = "stop";
+/// Word for the place of a seam in the sewing order, before its number.
+const ORDER: &str = "order";
 
 /// A number of a seam.
 struct Number {
@@ -98,7 +100,7 @@ fn hint() -> String {
     let ends = ENDS.map(|(word, _)| word).join(", ");
     format!(
         "a row is x and y in mm and, in the first of a seam, what is made along it, as in `0,0,zigzag open`: one of \
-         {elements}, and of {shapes}, {ends}, `{} open`, `{} 3`, `{} 4`, `{} 1200`, `{THREAD} 2`, `{STOP}`",
+         {elements}, and of {shapes}, {ends}, `{} open`, `{} 3`, `{} 4`, `{} 1200`, `{THREAD} 2`, `{ORDER} 1`, `{STOP}`",
         SIDES[1], PITCH.word, WIDTH.word, SPEED.word
     )
 }
@@ -176,9 +178,10 @@ pub(super) fn with_words(mut seam: Seam, words: &str) -> Result<Seam, String> {
             seam.stop = true;
         } else if word == THREAD {
             once("the thread")?;
-            let number = words.next().unwrap_or_default();
-            let thread = number.parse().ok().filter(|&thread: &u16| thread > 0);
-            seam.thread = thread.ok_or_else(|| format!("`{number}` is no number of a thread"))?;
+            seam.thread = counted(words.next(), "of a thread")?;
+        } else if word == ORDER {
+            once("the order")?;
+            seam.order = Some(counted(words.next(), "in the order")?);
         } else {
             return Err(format!("`{word}` is no element of a pattern"));
         }
@@ -187,6 +190,12 @@ pub(super) fn with_words(mut seam: Seam, words: &str) -> Result<Seam, String> {
         return Err("a width is given for a seam that has none".to_owned());
     }
     Ok(seam)
+}
+
+/// A number from 1; `whose` says what it is a number of.
+fn counted(text: Option<&str>, whose: &str) -> Result<u16, String> {
+    let number = text.unwrap_or_default();
+    number.parse().ok().filter(|&count: &u16| count > 0).ok_or_else(|| format!("`{number}` is no number {whose}"))
 }
 
 /// Reason why the element of a seam does not suit its line; `None` if it does. The line has no equal points in a row.

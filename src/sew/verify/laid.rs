@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ground::{Ground, sighting};
-use super::{rules, satin};
+use super::{order, rules, satin};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::verdict::WorstByRule;
@@ -22,6 +22,7 @@ pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
         corners(pattern, ground, worst);
         on_seam(pattern, ground, worst);
         satin::judge(pattern, ground, worst);
+        order::judge(pattern, ground, worst);
     }
 }
 

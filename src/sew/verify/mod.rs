@@ -9,6 +9,7 @@ mod decoders;
 mod events;
 mod ground;
 mod laid;
+mod order;
 mod original;
 mod placed;
 mod pulse_records;

@@ -305,7 +305,7 @@ fn every_rule_is_broken_by_a_damage() {
         .chain(bytes)
         .chain(laid)
         .chain(PLACE_DAMAGES.iter().map(|row| row.1))
-        .chain([SOURCE, COVER, CURVE])
+        .chain([SOURCE, COVER, CURVE, ORDER])
         .collect();
     assert_eq!(aimed, RULES.iter().map(|row| row.name).collect());
 }
@@ -313,6 +313,8 @@ fn every_rule_is_broken_by_a_damage() {
 /// Rules of a satin and of curves, which have tests of their own.
 const COVER: &str = "sew-verify/cover";
 const CURVE: &str = "sew-verify/curve";
+/// Rule of the order of seams.
+const ORDER: &str = "sew-verify/order";
 
 #[test]
 fn a_satin_with_a_gap_or_a_stitch_outside_is_refused() {
@@ -343,4 +345,18 @@ fn an_arc_or_circle_beside_its_curve_is_refused() {
     assert!(spoilt(1, |points| _ = points.drain(5..30)).contains(&CURVE));
     assert!(spoilt(1, |points| points.reverse()).contains(&CURVE));
     assert!(spoilt(3, |points| *points = vec![points[0], points[points.len() - 1]]).contains(&CURVE));
+}
+
+#[test]
+fn seams_in_another_order_than_that_of_their_numbers_are_refused() {
+    let job = Job::default();
+    let mut program = planned("sew/order.csv", &job);
+    let judged = |program: &Program| broken(program, &[], &job, ("queue", &written(program, &job, "queue")));
+    assert_eq!(judged(&program), [""; 0]);
+    let first: BTreeSet<u32> = program.stitches.steps.iter().map(|step| step.record).take(2).collect();
+    assert_eq!(first, BTreeSet::from([8]));
+    if let Some(pattern) = &mut program.pattern {
+        pattern.seams[0].order = Some(1);
+    }
+    assert!(judged(&program).contains(&ORDER));
 }
