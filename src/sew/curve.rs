@@ -10,6 +10,9 @@ const MOST_TURN: f64 = 0.05;
 /// Least sine of the turn at the middle point of an arc: below it the centre is lost in rounding.
 const STRAIGHT_EPSILON: f64 = 1e-6;
 
+/// Least number of stitches that go around a circle.
+const FEWEST: f64 = 3.0;
+
 /// Replaces the points of arcs and circles by points on the curve, whose chords stay within `tolerance` mm of it. The points of
 /// the file are kept as marks. Adds an error where there is no such curve.
 pub(super) fn trace(pattern: &mut Pattern, tolerance: f64, sewing: &Sewing, out: &mut Diagnostics) {
@@ -56,6 +59,11 @@ fn circle(seam: &Seam, tolerance: f64, sewing: &Sewing) -> Result<Vec<Point>, St
     let half = seam.width.unwrap_or(sewing.tack_width_mm) / 2.0;
     if seam.element == Element::Eyelet && radius <= half + SAME_EPSILON {
         return Err(format!("an eyelet of radius {radius} mm has no hole: half its width is {half} mm"));
+    }
+    let usual = if seam.element == Element::Zigzag { sewing.zigzag_pitch_mm } else { sewing.pitch_mm };
+    let pitch = if seam.element == Element::Eyelet { usual } else { seam.pitch.unwrap_or(usual) };
+    if std::f64::consts::TAU * radius < FEWEST * pitch {
+        return Err(format!("a circle of radius {radius} mm is too small for three stitches of {pitch} mm"));
     }
     Ok(around(centre, start, (std::f64::consts::TAU, start), tolerance))
 }
