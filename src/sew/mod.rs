@@ -3,7 +3,7 @@
 //! A small pipeline, similar to that of the cutter; the modules are listed in its order:
 //!
 //! ```text
-//! bytes -> read -> Pattern -> sheet -> lay -> Stitches -> fit -> speed -> Program -> write -> bytes -> verify
+//! bytes -> read -> curve -> Pattern -> sheet -> lay -> Stitches -> fit -> speed -> Program -> write -> bytes -> verify
 //! ```
 //!
 //! A *Pattern* is a list of lines with an element along each. *Stitches* are needle points and the events between them. A
@@ -12,6 +12,7 @@
 //! that writes them.
 
 mod asked;
+mod curve;
 mod estimate;
 mod fifo;
 mod fit;
@@ -31,7 +32,7 @@ mod write;
 pub use asked::Asked;
 pub use estimate::{Estimate, estimate};
 pub use fifo::{Fifo, simulate};
-pub use pattern::{Element, Pattern, Seam};
+pub use pattern::{Element, Pattern, Seam, Shape};
 pub use program::{Move, Program};
 pub use read::{FORMATS, Format, Input};
 pub use speed::{Limit, Run};
@@ -56,6 +57,9 @@ use crate::units::number::fixed;
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let sewing = &job.profile.sewing;
     let Reading { format, record_word, mut input } = read::read(source, asked, job, out)?;
+    if let Input::Pattern(pattern) = &mut input {
+        curve::trace(pattern, job.profile.tolerance(0.0), sewing, out);
+    }
     let drawn = if let Input::Pattern(pattern) = &input { Some(pattern.clone()) } else { None };
     sheet::place(&mut input, job, out);
     let (pattern, stitches, speeds) = match input {

@@ -25,12 +25,33 @@ pub enum Element {
     BarTack,
     /// A box along four corners and its two diagonals, without a thread cut.
     BoxX,
+    /// Close stitches from rail to rail; the points of the seam alternate between both rails.
+    Satin,
+    /// A close zigzag over a straight underlay around a hole.
+    Eyelet,
+}
+
+/// Meaning of the points of a seam in its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// A line from point to point, or rungs of a satin.
+    Line,
+    /// An arc: its start, a point on it, its end.
+    Arc,
+    /// A circle: its centre, a point on it.
+    Circle,
 }
 
 impl Element {
     /// All elements with their words in files.
-    pub const WORDS: [(&'static str, Self); 4] =
-        [("straight", Self::Straight), ("zigzag", Self::Zigzag), ("bar-tack", Self::BarTack), ("box-x", Self::BoxX)];
+    pub const WORDS: [(&'static str, Self); 6] = [
+        ("straight", Self::Straight),
+        ("zigzag", Self::Zigzag),
+        ("bar-tack", Self::BarTack),
+        ("box-x", Self::BoxX),
+        ("satin", Self::Satin),
+        ("eyelet", Self::Eyelet),
+    ];
 }
 
 /// A line and its element.
@@ -38,6 +59,10 @@ impl Element {
 pub struct Seam {
     /// Points, mm; a closed seam ends with its first point.
     pub points: Vec<Point>,
+    /// Meaning of its points in the file.
+    pub shape: Shape,
+    /// Points in the file of an arc or circle, as drawn; empty for a line.
+    pub marks: Vec<Point>,
     /// Kind of stitching.
     pub element: Element,
     /// Locking of its start and of its end; `None` for that of the profile.
@@ -50,6 +75,8 @@ pub struct Seam {
     pub rpm: Option<f64>,
     /// Number of its thread, from 1.
     pub thread: u16,
+    /// Its number in the sewing order; `None` for a seam that is sewn after all that have one.
+    pub order: Option<u16>,
     /// True if the machine waits for its operator before the seam.
     pub stop: bool,
     /// Location of its start in the source.
@@ -59,8 +86,21 @@ pub struct Seam {
 impl Seam {
     /// A straight seam of the first thread.
     pub fn plain(points: Vec<Point>, span: Span) -> Self {
-        let (element, ends) = (Element::Straight, [None; 2]);
-        Self { points, element, ends, pitch: None, width: None, rpm: None, thread: 1, stop: false, span }
+        let (shape, marks, element, ends) = (Shape::Line, Vec::new(), Element::Straight, [None; 2]);
+        Self {
+            points,
+            shape,
+            marks,
+            element,
+            ends,
+            pitch: None,
+            width: None,
+            rpm: None,
+            thread: 1,
+            order: None,
+            stop: false,
+            span,
+        }
     }
 
     /// True if the seam ends at its start.

@@ -80,9 +80,9 @@ fn lay(input: &mut Input, drawn: Extent, profile: &MachineProfile) {
 fn room(input: &Input, sewing: &Sewing) -> f64 {
     let Input::Pattern(pattern) = input else { return 0.0 };
     let width = |seam: &Seam| match seam.element {
-        Element::Straight | Element::BoxX => 0.0,
+        Element::Straight | Element::BoxX | Element::Satin => 0.0,
         Element::Zigzag => seam.width.unwrap_or(sewing.zigzag_width_mm),
-        Element::BarTack => seam.width.unwrap_or(sewing.tack_width_mm),
+        Element::BarTack | Element::Eyelet => seam.width.unwrap_or(sewing.tack_width_mm),
     };
     pattern.seams.iter().map(|seam| width(seam) / 2.0).fold(0.0, f64::max)
 }

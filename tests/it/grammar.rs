@@ -377,3 +377,17 @@ fn fixtures_are_sentences_of_the_csv_grammar() {
         check("csv", &text.lines().skip(1).take(8).map(|line| ("row", format!("{line}END"))).collect());
     }
 }
+
+#[test]
+fn a_sentence_of_the_grammar_of_sewing_has_rows_that_are_read() {
+    let grammar = grammar("sew");
+    for seed in 0..SENTENCES {
+        let bytes = sentence(&grammar, seed);
+        let source = Source::new("a.csv", bytes.clone()).expect("small");
+        let mut found = Diagnostics::default();
+        cutc::sew::plan(&source, &cutc::sew::Asked::default(), &cutc::machine::Job::default(), &mut found);
+        // Random points seldom suit their element.
+        let is_row = found.iter().any(|finding| finding.code.name == "sew/row");
+        assert!(!is_row, "{}\n{}", bytes.escape_ascii(), render(&found, &source));
+    }
+}

@@ -29,7 +29,7 @@ codes! {
     /// Jump after jump.
     SEW_JUMPS = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
     /// An element on a line that cannot bear it.
-    SEW_ELEMENT = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
+    SEW_ELEMENT = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, a satin rails that do not cross, an arc three points, a circle or an eyelet two, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
     /// A needle point where the machine cannot be.
     SEW_FIELD = error(Shape, "sew/field", "A needle point lies outside the field of the machine (`table.*`), or the pattern is larger than its clamp (`sewing.field_mm`).", "The needle would strike the clamp, or X and Y their stops. Move the pattern, as with sheet.origin, or turn it, or give the field of the machine.\n  cutc sew pocket.csv --set sheet.origin=corner");
     /// An inset that leaves nothing.

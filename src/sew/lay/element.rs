@@ -1,6 +1,7 @@
 //! Elements along a line: needle points of straight seams, zigzags, bar tacks and boxes.
 
 use super::pitch::even;
+use super::satin::satin;
 use crate::geom::{Point, Vector, left};
 use crate::machine::Sewing;
 use crate::sew::pattern::{Element, Seam, distinct};
@@ -15,13 +16,14 @@ pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
         Element::Zigzag => {
             zigzag(&straight(&seam.points, pitch(sewing.zigzag_pitch_mm)), width(sewing.zigzag_width_mm))
         }
-        Element::BarTack => {
+        Element::BarTack | Element::Eyelet => {
             // The underlay, then the zigzag back over it.
             let mut points = straight(&seam.points, sewing.pitch_mm);
             let back: Vec<Point> = seam.points.iter().rev().copied().collect();
             points.extend(zigzag(&straight(&back, pitch(sewing.tack_pitch_mm)), width(sewing.tack_width_mm)));
             points
         }
+        Element::Satin => satin(&seam.points, pitch(sewing.tack_pitch_mm)),
         // The corners of a box count as corners at any angle.
         Element::BoxX => even(&box_x(&seam.points), pitch(sewing.pitch_mm), 0.0),
     }
@@ -32,7 +34,7 @@ pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
     match seam.element {
         Element::Straight => distinct(&seam.points),
         Element::BoxX => box_x(&seam.points),
-        Element::Zigzag | Element::BarTack => points.to_vec(),
+        Element::Zigzag | Element::BarTack | Element::Satin | Element::Eyelet => points.to_vec(),
     }
 }
 

@@ -7,6 +7,7 @@ mod element;
 mod ends;
 mod order;
 mod pitch;
+mod satin;
 
 use super::pattern::{Pattern, SAME_EPSILON, Seam};
 use super::stitches::{Op, Step, Stitches};

@@ -1,4 +1,4 @@
-//! Order of the seams: that of the file, or one with little travel.
+//! Order of the seams: by their numbers, then that of the file, or one with little travel.
 //!
 //! Threads keep their order, a stop stays before its seam, and no seam is reversed: upper and lower thread form different sides
 //! of a stitch, which depend on the sewing direction.
@@ -17,13 +17,15 @@ const GAIN_EPSILON: f64 = 1e-6;
 
 /// The seams in sewing order.
 pub(super) fn order<'p>(pattern: &'p Pattern, sewing: &Sewing) -> Vec<&'p Seam> {
-    let seams: Vec<&Seam> = pattern.seams.iter().filter(|seam| !seam.points.is_empty()).collect();
+    let mut seams: Vec<&Seam> = pattern.seams.iter().filter(|seam| !seam.points.is_empty()).collect();
+    // A stable sort: seams of one number, and those without, keep the order of the file.
+    seams.sort_by_key(|seam| turn(seam));
     match sewing.order {
         SeamOrder::File => seams,
         SeamOrder::Travel => {
             let mut at = Point::origin();
             let mut out = Vec::with_capacity(seams.len());
-            for group in seams.chunk_by(|a, b| a.thread == b.thread && !b.stop) {
+            for group in seams.chunk_by(|a, b| a.thread == b.thread && !b.stop && a.order == b.order) {
                 // A stop belongs before the first seam of its group.
                 let (fixed, free) = group.split_at(usize::from(group[0].stop));
                 out.extend_from_slice(fixed);
@@ -35,6 +37,11 @@ pub(super) fn order<'p>(pattern: &'p Pattern, sewing: &Sewing) -> Vec<&'p Seam> 
             out
         }
     }
+}
+
+/// Key of the sewing order: seams without a number are last.
+fn turn(seam: &Seam) -> (bool, Option<u16>) {
+    (seam.order.is_none(), seam.order)
 }
 
 fn end(seam: &Seam) -> Point {
@@ -118,5 +125,21 @@ mod tests {
         assert_eq!(starts(&plain, SeamOrder::Travel), [0.0, 5.0, 9.0]);
         let threads = [(9.0, 1, false), (0.0, 1, false), (1.0, 2, false), (3.0, 2, true), (2.0, 2, false)];
         assert_eq!(starts(&threads, SeamOrder::Travel), [0.0, 9.0, 1.0, 3.0, 2.0]);
+    }
+
+    #[test]
+    fn numbered_seams_are_sewn_first_in_either_order() {
+        let seam = |(x, order): (f64, Option<u16>)| Seam {
+            order,
+            ..Seam::plain(vec![Point::new(x, 0.0), Point::new(x + 1.0, 0.0)], Span::default())
+        };
+        let rows = [(0.0, None), (9.0, Some(2)), (4.0, Some(2)), (7.0, Some(1))];
+        let pattern = Pattern { seams: rows.into_iter().map(seam).collect() };
+        let starts = |order: SeamOrder| -> Vec<f64> {
+            let sewing = Sewing { order, ..Sewing::default() };
+            super::order(&pattern, &sewing).iter().map(|seam| seam.points[0].x).collect()
+        };
+        assert_eq!(starts(SeamOrder::File), [7.0, 9.0, 4.0, 0.0]);
+        assert_eq!(starts(SeamOrder::Travel), [7.0, 9.0, 4.0, 0.0]);
     }
 }

@@ -1,15 +1,15 @@
 //! Patterns as lists of points: `x_mm,y_mm,element`, one point per row, a blank line between seams.
 //!
-//! The third field of the first row of a seam gives its element: `straight`, `zigzag`, `bar-tack` or `box-x`. After a blank,
-//! `tie`, `back-tack` or `open` for its ends, also of one alone as in `end open`, `pitch 3`, `width 4`, `speed 1200`,
-//! `thread 2` and `stop` may follow. An empty field is a straight seam with the defaults of the profile.
+//! The third field of the first row of a seam gives its element: `straight`, `zigzag`, `bar-tack`, `box-x`, `satin` or `eyelet`.
+//! After a blank, `arc` or `circle` for its shape, `tie`, `back-tack` or `open` for its ends, also of one alone as in `end open`, `pitch 3`, `width 4`, `speed 1200`,
+//! `thread 2`, `order 1` and `stop` may follow. An empty field is a straight seam with the defaults of the profile.
 
 use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::sewn;
-use crate::geom::Point;
+use crate::geom::{Point, cross};
 use crate::machine::sewing::Ends;
-use crate::sew::pattern::{Element, Pattern, Seam, distinct};
+use crate::sew::pattern::{Element, Pattern, Seam, Shape, distinct};
 use crate::source::{Source, Span};
 
 pub(super) const FORMAT: Format = Format {
@@ -32,9 +32,15 @@ const SIDES: [&str; 2] = ["start", "end"];
 const PITCH: Number = Number { word: "pitch", what: "a stitch length in mm", range: [0.05, 50.0] };
 const WIDTH: Number = Number { word: "width", what: "a width in mm", range: [0.1, 50.0] };
 const SPEED: Number = Number { word: "speed", what: "a speed in stitches per minute", range: [10.0, 20_000.0] };
+/// Words for the shape of a seam.
+const SHAPES: [(&str, Shape); 2] = [("arc", Shape::Arc), ("circle", Shape::Circle)];
 /// Words for the thread, before its number, and for a wait before the seam.
 const THREAD: &str = "thread";
+/// Name of the shape of a seam in messages.
+const SHAPE: &str = "the shape";
 const STOP: &str = "stop";
+/// Word for the place of a seam in the sewing order, before its number.
+const ORDER: &str = "order";
 
 /// A number of a seam.
 struct Number {
@@ -90,10 +96,11 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
 /// Hint on the content of a row.
 fn hint() -> String {
     let elements = Element::WORDS.map(|(word, _)| word).join(", ");
+    let shapes = SHAPES.map(|(word, _)| word).join(", ");
     let ends = ENDS.map(|(word, _)| word).join(", ");
     format!(
         "a row is x and y in mm and, in the first of a seam, what is made along it, as in `0,0,zigzag open`: one of \
-         {elements}, and of {ends}, `{} open`, `{} 3`, `{} 4`, `{} 1200`, `{THREAD} 2`, `{STOP}`",
+         {elements}, and of {shapes}, {ends}, `{} open`, `{} 3`, `{} 4`, `{} 1200`, `{THREAD} 2`, `{ORDER} 1`, `{STOP}`",
         SIDES[1], PITCH.word, WIDTH.word, SPEED.word
     )
 }
@@ -144,6 +151,13 @@ pub(super) fn with_words(mut seam: Seam, words: &str) -> Result<Seam, String> {
         if let Some((_, element)) = Element::WORDS.iter().find(|(name, _)| *name == word) {
             once("the element")?;
             seam.element = *element;
+            if *element == Element::Eyelet {
+                once(SHAPE)?;
+                seam.shape = Shape::Circle;
+            }
+        } else if let Some((_, shape)) = SHAPES.iter().find(|(name, _)| *name == word) {
+            once(SHAPE)?;
+            seam.shape = *shape;
         } else if let Some(ends) = lock(word) {
             once("what is done at the ends")?;
             seam.ends = seam.ends.map(|told| told.or(Some(ends)));
@@ -164,38 +178,68 @@ pub(super) fn with_words(mut seam: Seam, words: &str) -> Result<Seam, String> {
             seam.stop = true;
         } else if word == THREAD {
             once("the thread")?;
-            let number = words.next().unwrap_or_default();
-            let thread = number.parse().ok().filter(|&thread: &u16| thread > 0);
-            seam.thread = thread.ok_or_else(|| format!("`{number}` is no number of a thread"))?;
+            seam.thread = counted(words.next(), "of a thread")?;
+        } else if word == ORDER {
+            once("the order")?;
+            seam.order = Some(counted(words.next(), "in the order")?);
         } else {
             return Err(format!("`{word}` is no element of a pattern"));
         }
     }
-    if seam.width.is_some() && matches!(seam.element, Element::Straight | Element::BoxX) {
+    if seam.width.is_some() && matches!(seam.element, Element::Straight | Element::BoxX | Element::Satin) {
         return Err("a width is given for a seam that has none".to_owned());
     }
     Ok(seam)
+}
+
+/// A number from 1; `whose` says what it is a number of.
+fn counted(text: Option<&str>, whose: &str) -> Result<u16, String> {
+    let number = text.unwrap_or_default();
+    number.parse().ok().filter(|&count: &u16| count > 0).ok_or_else(|| format!("`{number}` is no number {whose}"))
 }
 
 /// Reason why the element of a seam does not suit its line; `None` if it does. The line has no equal points in a row.
 pub(super) fn fault(seam: &Seam) -> Option<String> {
     let points = &seam.points;
     let corners = points.len() - usize::from(points.len() > 1 && points.first() == points.last());
+    let name = Element::WORDS.iter().find(|(_, element)| *element == seam.element).map_or("", |(word, _)| word);
     match seam.element {
+        Element::BoxX | Element::BarTack | Element::Satin if seam.shape != Shape::Line => {
+            Some(format!("a {name} follows no arc or circle"))
+        }
         Element::BoxX if corners != BOX_CORNERS => Some(format!("a box has four corners, and this has {corners}")),
         Element::BarTack if points.len() != 2 => {
             Some(format!("a bar tack goes from one point to another, and this has {}", points.len()))
         }
-        Element::Straight | Element::Zigzag | Element::BarTack | Element::BoxX => {
+        Element::Satin => satin_fault(points),
+        Element::Straight | Element::Zigzag | Element::BarTack | Element::BoxX | Element::Eyelet => {
             (points.len() < 2).then(|| "the seam that starts here has no two different points".to_owned())
         }
     }
 }
 
+/// Reason why points are no satin: each two are a rung from rail to rail.
+fn satin_fault(points: &[Point]) -> Option<String> {
+    if points.len() < 4 || !points.len().is_multiple_of(2) {
+        let message = "the points of a satin alternate between its two rails, two a rung, and this has";
+        return Some(format!("{message} {}", points.len()));
+    }
+    let rails_cross = |area: &[Point]| {
+        let [a, b, c, d] = [area[0], area[1], area[2], area[3]];
+        let side = |from: Point, to: Point, point: Point| cross(to - from, point - from);
+        side(a, c, b) * side(a, c, d) < 0.0 && side(b, d, a) * side(b, d, c) < 0.0
+    };
+    let rung = points.windows(4).step_by(2).position(rails_cross)?;
+    Some(format!("the rails of a satin cross behind its rung {}", rung + 1))
+}
+
 /// Ends a seam: removes consecutive equal points, which are no corners, and checks it.
 fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
     let Some(mut seam) = seam else { return };
-    seam.points = distinct(&seam.points);
+    if seam.element != Element::Satin {
+        // The rails of a satin may meet in a point.
+        seam.points = distinct(&seam.points);
+    }
     match fault(&seam) {
         Some(message) => out.push(Diagnostic::new(&code::SEW_ELEMENT, message).at(seam.span)),
         None => pattern.seams.push(seam),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ground::{Ground, sighting};
-use super::rules;
+use super::{order, rules, satin};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::verdict::WorstByRule;
@@ -21,6 +21,8 @@ pub(super) fn judge(ground: &Ground, worst: &mut WorstByRule) {
     if let Some(pattern) = ground.pattern {
         corners(pattern, ground, worst);
         on_seam(pattern, ground, worst);
+        satin::judge(pattern, ground, worst);
+        order::judge(pattern, ground, worst);
     }
 }
 
@@ -50,7 +52,7 @@ fn asked_pitches(ground: &Ground) -> BTreeMap<u32, f64> {
     for seam in ground.pattern.iter().flat_map(|pattern| &pattern.seams) {
         let pitch = match seam.element {
             Element::Straight | Element::BoxX => seam.pitch.unwrap_or(ground.sewing.pitch_mm),
-            Element::Zigzag | Element::BarTack => f64::INFINITY,
+            Element::Zigzag | Element::BarTack | Element::Satin | Element::Eyelet => f64::INFINITY,
         };
         let most = pitches.entry(seam.span.block).or_insert(pitch);
         *most = f64::max(*most, pitch);
@@ -61,9 +63,9 @@ fn asked_pitches(ground: &Ground) -> BTreeMap<u32, f64> {
 /// Half the width of a seam, mm.
 pub(super) fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
     match seam.element {
-        Element::Straight | Element::BoxX => 0.0,
+        Element::Straight | Element::BoxX | Element::Satin => 0.0,
         Element::Zigzag => seam.width.unwrap_or(sewing.zigzag_width_mm) / 2.0,
-        Element::BarTack => seam.width.unwrap_or(sewing.tack_width_mm) / 2.0,
+        Element::BarTack | Element::Eyelet => seam.width.unwrap_or(sewing.tack_width_mm) / 2.0,
     }
 }
 
@@ -75,7 +77,8 @@ fn reach(width: f64, sewing: &Sewing) -> f64 {
 /// Checks that each corner of a seam has a needle point near it.
 fn corners(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
     let mut corners: Vec<(Point, f64)> = Vec::new();
-    for seam in &pattern.seams {
+    // The rails of a satin are pierced in turn, not at each point.
+    for seam in pattern.seams.iter().filter(|seam| seam.element != Element::Satin) {
         let mut points = seam.points.clone();
         points.dedup();
         let width = half_width(seam, ground.sewing);
@@ -111,30 +114,42 @@ fn turn(before: Vector, behind: Vector) -> f64 {
 }
 
 fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut WorstByRule) {
-    let mut lines: Vec<([Point; 2], f64)> = Vec::new();
+    let mut lines: Vec<(Vec<Point>, f64)> = Vec::new();
     for seam in &pattern.seams {
         let width = half_width(seam, ground.sewing);
-        lines.extend(seam.points.windows(2).map(|pair| ([pair[0], pair[1]], width)));
+        if seam.element == Element::Satin {
+            lines.extend(satin::areas(seam).map(|area| (area.to_vec(), width)));
+            continue;
+        }
+        lines.extend(seam.points.windows(2).map(|pair| (pair.to_vec(), width)));
         if seam.element == Element::BoxX && seam.points.len() >= 4 {
             let p = &seam.points;
-            lines.extend([[p[0], p[2]], [p[1], p[3]], [p[3], p[0]]].map(|ends| (ends, width)));
+            lines.extend([[p[0], p[2]], [p[1], p[3]], [p[3], p[0]]].map(|ends| (ends.to_vec(), width)));
         }
     }
-    let around = |([a, b], width): &([Point; 2], f64)| {
-        let mut extent = Extent { min: *a, max: *a };
-        extent.add(*b);
-        extent.grown(reach(*width, ground.sewing))
-    };
+    let around = |(line, width): &(Vec<Point>, f64)| Extent::of(line).grown(reach(*width, ground.sewing));
     let boxes = Boxes::new(lines.iter().map(around).collect());
     for (step, entry) in ground.stitches.steps.iter().zip(1..).filter(|(step, _)| step.op == Op::Stitch) {
-        let beside = |i: usize| beside(step.to, lines[i].0) - lines[i].1;
+        let beside = |i: usize| beside(step.to, &lines[i].0) - lines[i].1;
         let off = boxes.at(step.to).map(beside).fold(reach(0.0, ground.sewing), f64::min);
         worst.see(&rules::ON_SEAM, off, sighting(entry, step.to));
     }
 }
 
+/// Distance of a point from a line segment, or from the area between four corners, mm.
+fn beside(point: Point, corners: &[Point]) -> f64 {
+    if let [a, b] = *corners {
+        return beside_segment(point, [a, b]);
+    }
+    if satin::is_within(point, corners) {
+        return 0.0;
+    }
+    let pairs = (0..corners.len()).flat_map(|i| (0..i).map(move |k| [corners[i], corners[k]]));
+    pairs.map(|ends| beside_segment(point, ends)).fold(f64::INFINITY, f64::min)
+}
+
 /// Distance of a point from a line segment, mm.
-fn beside(point: Point, [a, b]: [Point; 2]) -> f64 {
+fn beside_segment(point: Point, [a, b]: [Point; 2]) -> f64 {
     let (way, to) = (b - a, point - a);
     let along = (to.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     (to - way * along).norm()

@@ -4,10 +4,12 @@
 //! lay, plan and write: it counts pulses, measures intervals and decodes records itself. Never repairs anything.
 
 mod clock;
+mod curve;
 mod decoders;
 mod events;
 mod ground;
 mod laid;
+mod order;
 mod original;
 mod placed;
 mod pulse_records;
@@ -16,6 +18,7 @@ mod pulses;
 mod queue;
 mod records;
 mod rules;
+mod satin;
 mod spindle;
 mod stitch_file;
 
@@ -55,6 +58,9 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
     laid::judge(ground, &mut worst);
     original::judge(ground, &mut worst);
     placed::judge(ground, &mut worst);
+    if let Some(drawn) = ground.drawn {
+        curve::judge(drawn, ground.profile.tolerance(0.0), &mut worst);
+    }
     let read = match bytes {
         Bytes::PulseRows => {
             pulses::judge(|each| pulse_rows::read(input, each), pulse_rows::TICK_US, ground, &mut worst)

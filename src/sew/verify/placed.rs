@@ -42,7 +42,7 @@ fn compare(drawn: &Pattern, laid: &Pattern, profile: &MachineProfile, worst: &mu
         let Some(seam) = drawn.seams.get(i % drawn.seams.len().max(1)) else { break };
         let told = |seam: &Seam| {
             let numbers = [seam.pitch, seam.width, seam.rpm];
-            (seam.element, seam.ends, seam.thread, seam.stop, seam.points.len(), numbers)
+            (seam.element, seam.shape, seam.ends, seam.thread, seam.order, seam.stop, seam.points.len(), numbers)
         };
         let copy = (i / drawn.seams.len()) as f64;
         let away = seam.points.iter().zip(&found.points).map(|(from, to)| (place.image(*from, copy) - to).norm());

@@ -22,6 +22,9 @@ rules! {
     LONG_PITCH { name: "sew-verify/long-pitch", unit: "mm", about: "no stitch is longer than the machine can make, nor than its seam asks", more: "Neither the clamp nor the thread take-up of the machine reaches farther. The value is by how much the longest passes `sewing.max_pitch_mm`." }
     CORNER { name: "sew-verify/corner", unit: "mm", about: "every corner of a seam has a needle point", more: "A seam that cuts a corner short shows on the finished piece. Edges shorter than the least pitch are merged, so that much is allowed." }
     ON_SEAM { name: "sew-verify/on-seam", unit: "mm", about: "every needle point is on its seam, or within its width", more: "Stitches beside the seam line miss the lower ply or the folded edge, and the seam opens. What merging short stitches moves is allowed, and no more." }
+    COVER { name: "sew-verify/cover", unit: "mm", about: "both rails of a satin are pierced as closely as its pitch asks", more: "Cloth shows between stitches that stand too far apart, and a rail that is not reached frays. The value is by how much a place of a rail is farther from a needle point than the pitch. What merging short stitches moves is allowed." }
+    CURVE { name: "sew-verify/curve", unit: "mm", about: "the line of an arc, circle or eyelet is the curve through the points of the file", more: "A round seam that is flattened too coarsely, or runs the other way round, is another seam. The centre is computed again. The value is by how much the line leaves its curve by more than `path.tolerance_mm`." }
+    ORDER { name: "sew-verify/order", unit: "", about: "seams with a number of order are sewn in that order, before all others", more: "A seam that holds a ply must be sewn before the one that covers it. The value is how many stitches come after those of a later seam." }
     NEEDLE_POINT { name: "sew-verify/needle-point", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." }
     COMMANDS { name: "sew-verify/commands", unit: "", about: "trims of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in DST and JEF files." }
     HEADER { name: "sew-verify/header", unit: "", about: "the header of a stitch file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." }
@@ -37,8 +40,8 @@ pub(super) fn limit(rule: &Rule, sewing: &Sewing) -> f64 {
         (&[&WINDOW, &TIME, &FIRST_INTERVAL, &LEAST_INTERVAL, &RAMP], TIME_US),
         (&[&ACCELERATION], sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON)),
         (&[&SPINDLE], sewing.spindle_rpm_s * (1.0 + SPEED_EPSILON)),
-        (&[&SHORT_PITCH, &LONG_PITCH, &PLACED, &FIELD], PLACE_EPSILON),
-        (&[&CORNER, &ON_SEAM], sewing.min_pitch_mm + PLACE_EPSILON),
+        (&[&SHORT_PITCH, &LONG_PITCH, &CURVE, &PLACED, &FIELD], PLACE_EPSILON),
+        (&[&CORNER, &ON_SEAM, &COVER], sewing.min_pitch_mm + PLACE_EPSILON),
         (&[&NEEDLE_POINT], FILE_UNIT / 2.0 + PLACE_EPSILON),
     ];
     // The other rules permit nothing.

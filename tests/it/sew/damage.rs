@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use cutc::geom::Point;
 use cutc::machine::sewing::{OnLong, Spindle};
 use cutc::machine::{Job, Mirror};
 use cutc::sew::verify::RULES;
@@ -300,7 +301,62 @@ fn every_rule_is_broken_by_a_damage() {
     let rows = DAMAGES.iter().chain(EASED_DAMAGES).map(|Damage(_, _, rule, _)| *rule);
     let bytes = BYTE_DAMAGES.iter().map(|row| row.2);
     let laid = LAID_DAMAGES.iter().map(|row| row.1);
-    let aimed: BTreeSet<&str> =
-        rows.chain(bytes).chain(laid).chain(PLACE_DAMAGES.iter().map(|row| row.1)).chain([SOURCE]).collect();
+    let aimed: BTreeSet<&str> = rows
+        .chain(bytes)
+        .chain(laid)
+        .chain(PLACE_DAMAGES.iter().map(|row| row.1))
+        .chain([SOURCE, COVER, CURVE, ORDER])
+        .collect();
     assert_eq!(aimed, RULES.iter().map(|row| row.name).collect());
+}
+
+/// Rules of a satin and of curves, which have tests of their own.
+const COVER: &str = "sew-verify/cover";
+const CURVE: &str = "sew-verify/curve";
+/// Rule of the order of seams.
+const ORDER: &str = "sew-verify/order";
+
+#[test]
+fn a_satin_with_a_gap_or_a_stitch_outside_is_refused() {
+    let job = Job::default();
+    let spoilt = |spoil: fn(&mut Vec<Step>)| {
+        let mut program = planned("sew/satin.csv", &job);
+        spoil(&mut program.stitches.steps);
+        let bytes = written(&program, &job, "queue");
+        broken(&program, &[], &job, ("queue", &bytes))
+    };
+    assert!(spoilt(|steps| _ = steps.drain(20..24)).contains(&COVER));
+    assert!(spoilt(|steps| steps[20].to.y += 4.0).contains(&"sew-verify/on-seam"));
+}
+
+#[test]
+fn an_arc_or_circle_beside_its_curve_is_refused() {
+    let job = Job::default();
+    let spoilt = |seam: usize, spoil: fn(&mut Vec<Point>)| {
+        let mut program = planned("sew/round.csv", &job);
+        for pattern in [&mut program.drawn, &mut program.pattern].into_iter().flatten() {
+            spoil(&mut pattern.seams[seam].points);
+        }
+        let bytes = written(&program, &job, "queue");
+        broken(&program, &[], &job, ("queue", &bytes))
+    };
+    assert!(!spoilt(1, |_| {}).contains(&CURVE));
+    assert!(spoilt(0, |points| points[5].y += 0.2).contains(&CURVE));
+    assert!(spoilt(1, |points| _ = points.drain(5..30)).contains(&CURVE));
+    assert!(spoilt(1, |points| points.reverse()).contains(&CURVE));
+    assert!(spoilt(3, |points| *points = vec![points[0], points[points.len() - 1]]).contains(&CURVE));
+}
+
+#[test]
+fn seams_in_another_order_than_that_of_their_numbers_are_refused() {
+    let job = Job::default();
+    let mut program = planned("sew/order.csv", &job);
+    let judged = |program: &Program| broken(program, &[], &job, ("queue", &written(program, &job, "queue")));
+    assert_eq!(judged(&program), [""; 0]);
+    let first: BTreeSet<u32> = program.stitches.steps.iter().map(|step| step.record).take(2).collect();
+    assert_eq!(first, BTreeSet::from([8]));
+    if let Some(pattern) = &mut program.pattern {
+        pattern.seams[0].order = Some(1);
+    }
+    assert!(judged(&program).contains(&ORDER));
 }

@@ -66,7 +66,7 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
 fn random_pattern(random: &mut Rng) -> Vec<u8> {
     let mut text = "x_mm,y_mm,element".to_owned();
     for _ in 0..random.usize(1..6) {
-        let element = ["straight", "zigzag", "bar-tack", "box-x"][random.usize(0..4)];
+        let element = ["straight", "zigzag", "bar-tack", "box-x", "satin"][random.usize(0..5)];
         let words = [
             element,
             ["", "tie", "back-tack", "open"][random.usize(0..4)],
@@ -85,10 +85,15 @@ fn random_pattern(random: &mut Rng) -> Vec<u8> {
             _ => random.usize(2..30),
         };
         let (mut at, mut heading) = ([100.0 * random.f64(), 100.0 * random.f64()], random.f64() * 6.0);
+        // The rails of a satin are parallel, so that they do not cross.
+        let across = (element == "satin").then(|| [5.0 * random.f64(), 5.0 * random.f64()]);
         text += "\n";
         for i in 0..count {
             let words = if i == 0 { words.join(" ") } else { String::new() };
             _ = write!(text, "\n{:.4},{:.4},{words}", at[0], at[1]);
+            if let Some([x, y]) = across {
+                _ = write!(text, "\n{:.4},{:.4},", at[0] + x, at[1] + y);
+            }
             let length = 10.0_f64.powf(-2.0 + 3.5 * random.f64());
             heading += [0.0, 0.1, std::f64::consts::FRAC_PI_2, 3.0 * random.f64()][random.usize(0..4)];
             at = [at[0] + length * heading.cos(), at[1] + length * heading.sin()];
