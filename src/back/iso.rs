@@ -3,12 +3,14 @@
 //! Every file of the family, and anything else that was read, comes out in one spelling: a block a line, both coordinates
 //! in every point, slits and crossbars before the contours of their piece, one layout for each kind of label, the list of
 //! labels behind M0. Read again it gives the same marker. A marker that lies on no grid of the dialect is written in
-//! tenths of a millimetre with decimals.
+//! tenths of a millimetre with decimals. Where windows of a conveyor split a piece, each section comes as a piece of the same
+//! number, with open lines in place of the outline.
 //!
 //! | block | what it says |
 //! |---|---|
 //! | `H1`, `G70` or `G71` or neither | head, unit of 0.0254, 0.1 or 0.254 mm |
-//! | `N7` | a piece; behind it events (`M01`, `M69`) and the feed (`F`) where it changes |
+//! | `N7` | a piece, or a section of one; behind it events (`M01`, `M69`) and the feed (`F`) where it changes |
+//! | `ZX..` | the length of the advance `M69` behind it, between two windows of a conveyor |
 //! | `X..Y..M43`, `M44`, `M45`, `M73` | a hole |
 //! | `M31`, `X..Y..`, text | a label; with a direction `X..Y..M31`, text and the second point |
 //! | `X..Y..`, `M14`, `M19`, `X..Y..`, `M15` | a slit |
@@ -19,8 +21,8 @@ use std::io;
 use super::target::{Context, Emit, Output, Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
-use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Event, Field, Label, Notch, NotchKind, Piece};
+use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
+use crate::ir::marker::{Event, Field, Label, Notch, NotchKind, Piece};
 use crate::ir::toolpath;
 use crate::source::Span;
 use crate::units::{MM_PER_INCH, S_PER_MIN, number};
@@ -107,7 +109,7 @@ impl<'a> File<'a> {
                 labels.extend(marker.pieces[i + 1..].iter().flat_map(|piece| &piece.labels));
             }
             if is_cut(piece) {
-                self.piece(piece, &std::mem::take(&mut events), &std::mem::take(&mut labels));
+                self.piece(i, &std::mem::take(&mut events), &std::mem::take(&mut labels));
             }
         }
         events.into_iter().chain(&marker.closing).for_each(|event| self.event(event));
@@ -115,10 +117,9 @@ impl<'a> File<'a> {
         self.list_of_labels();
     }
 
-    fn piece(&mut self, piece: &Piece, events: &[&Event], labels: &[&Label]) {
-        if piece.section.is_some() {
-            self.refuse(piece.span, format!("piece {} is cut in several bites", piece.name()));
-        }
+    fn piece(&mut self, part: usize, events: &[&Event], labels: &[&Label]) {
+        let marker = self.context.marker;
+        let piece = &marker.pieces[part];
         self.block(&format!("N{}", piece.number));
         (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
         for event in events {
@@ -138,20 +139,29 @@ impl<'a> File<'a> {
             self.label(label);
         }
         piece.notches.iter().for_each(|notch| self.notch(notch));
-        piece.contours.iter().for_each(|contour| self.contour(contour));
+        let split = marker.split_outline(part);
+        let whole = piece.contours.iter().enumerate().filter(|(i, _)| Some(*i) != split);
+        whole.map(|(_, contour)| contour.range).chain(marker.section_cuts(part)).for_each(|range| self.contour(range));
     }
 
     fn event(&mut self, event: &Event) {
-        self.block(match event.kind {
-            toolpath::Event::Stop => "M01",
+        match event.kind {
+            toolpath::Event::Stop => return self.block("M01"),
+            toolpath::Event::Advance => {}
             // Coordinates stay those of the marker: readers of the file count the bites.
-            toolpath::Event::Advance | toolpath::Event::AdvanceBy(_) => "M69",
-        });
+            toolpath::Event::AdvanceBy(mm) => {
+                self.text.extend_from_slice(b"ZX");
+                self.number(f64::from(mm) / self.unit, event.span);
+                self.end_block();
+            }
+        }
+        self.block("M69");
     }
 
     /// F, where the feed changes. It stays in force, so that no piece behind a capped one can be without a cap.
     fn set_feed(&mut self, piece: &Piece) {
-        if piece.contours.is_empty() && piece.notches.is_empty() || piece.feed == self.feed {
+        let has_lines = piece.section.is_some() || !(piece.contours.is_empty() && piece.notches.is_empty());
+        if !has_lines || piece.feed == self.feed {
             return;
         }
         let Some(feed) = piece.feed else {
@@ -201,8 +211,8 @@ impl<'a> File<'a> {
         }
     }
 
-    fn contour(&mut self, contour: &Contour) {
-        let segments: Vec<Segment> = self.context.marker.list.walk(contour.range).map(|(_, s)| s).collect();
+    fn contour(&mut self, range: Range) {
+        let segments: Vec<Segment> = self.context.marker.list.walk(range).map(|(_, s)| s).collect();
         let first = segments[0];
         self.set_speed(first.percent, first.span);
         self.point(first.from, "");
@@ -357,7 +367,7 @@ impl<'a> File<'a> {
 
 /// True if anything of a piece is cut or drilled.
 fn is_cut(piece: &Piece) -> bool {
-    !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty())
+    piece.section.is_some() || !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty())
 }
 
 /// True if an open line is a slit of several legs: one that begins with M19 and has no overlaps.

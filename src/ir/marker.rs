@@ -382,6 +382,25 @@ impl Marker {
         Cow::Owned(wholes)
     }
 
+    /// Index among the contours of a piece, by its own index, of the outline that windows of a conveyor split: the widest along
+    /// X. `None` for other pieces and for early sections.
+    pub fn split_outline(&self, part: usize) -> Option<usize> {
+        let piece = &self.pieces[part];
+        let is_last = |section: &Piece| section.section.is_none() || !section.is_of(piece);
+        if piece.section.is_none() || !self.pieces[part + 1..].iter().all(is_last) {
+            return None;
+        }
+        let width = |i: usize| self.list.extent(piece.contours[i].range).size().0;
+        (0..piece.contours.len()).max_by(|&a, &b| width(a).total_cmp(&width(b)))
+    }
+
+    /// Cuts of a section of a piece that windows of a conveyor split, by its index: those of the outline in its stretch, with
+    /// their overlaps; empty for other pieces and before the pass `cut`.
+    pub fn section_cuts(&self, part: usize) -> impl Iterator<Item = Range> + '_ {
+        let cuts = if self.pieces[part].section.is_some() { self.cuts_of(part as u32) } else { &[] };
+        cuts.iter().filter(|cut| cut.kind == CutKind::Edge).map(|cut| cut.range)
+    }
+
     /// Cuts of a piece, by its index.
     pub fn cuts_of(&self, piece: u32) -> &[Cut] {
         &self.cuts[self.range_of(piece)]

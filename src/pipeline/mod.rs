@@ -133,7 +133,9 @@ pub fn compile_all(
     let Choices { from, verify, advance } = choices;
     let Some((mut input, reading)) = read_for((from, verify), source, job, diagnostics) else { return Ok(None) };
     let proofs = Proofs::of(products, verify);
-    if proofs.beside || products.iter().any(|product| product.target.emit.needs_toolpaths()) {
+    // A cut file has the cuts of pieces that windows of a conveyor split.
+    let is_split = input.marker.pieces.iter().any(|piece| piece.section.is_some());
+    if is_split || proofs.beside || products.iter().any(|product| product.target.emit.needs_toolpaths()) {
         make_cuts(&mut input, source, job, diagnostics);
         overreach::check(&input.marker, source, job, diagnostics);
     }

@@ -135,19 +135,15 @@ fn every_target_cuts_split_pieces_and_is_judged_by_its_own_bytes() {
     let room = Room::with("long.cut", LONG);
     let advance = r#"gcode.advance = ["M68 E0 Q#", "M64 P1", "M66 P1 L3 Q60"]"#;
     room.write("machine.toml", format!("bite.length_mm = 400\n{advance}\n").as_bytes());
-    for extension in ["csv", "npy", "counts", "hal.txt", "ngc"] {
+    for (target, extension) in
+        [("csv", "csv"), ("npy", "npy"), ("counts", "counts"), ("hal", "hal.txt"), ("gcode", "ngc"), ("iso", "cut")]
+    {
         let out = format!("out.{extension}");
-        let target = ["csv", "npy", "counts", "hal", "gcode"][["csv", "npy", "counts", "hal.txt", "ngc"]
-            .iter()
-            .position(|other| *other == extension)
-            .expect("it is one of them")];
         let said = room.says(&format!("compile long.cut -t {target} -o {out} -p machine.toml"), DONE);
         assert!(said.contains("  pieces     3\n") && said.contains("windows of a conveyor"), "{said}");
         assert!(!said.contains("ends of plunge cuts in parts"), "{said}");
         room.says(&format!("verify {out} --source long.cut -p machine.toml"), DONE);
     }
-    let said = room.says(&format!("compile long.cut -t iso -o out.cut {BITES}"), FAULTY);
-    assert!(said.contains("the target iso cannot say this: piece 2 is cut in several bites"), "{said}");
     // A sheet moves pieces before they are split.
     for sheet in
         ["--set sheet.mirror=ends", "--set sheet.flip=sides", "--set sheet.copies=2 --set order.policy=fastest"]
@@ -329,6 +325,71 @@ fn damage_to_split_cuts_is_found() {
     // A conveyor that is worse than the one that the cuts were made for leaves threads.
     let said = room.says(&format!("verify right.csv --source long.cut {BITES} --set bite.match_mm=2"), FAULTY);
     assert!(said.contains("FAIL  verify/joint"), "{said}");
+}
+
+#[test]
+fn a_cut_file_in_bites_has_the_cuts_of_each_window() {
+    let room = Room::with("long.cut", LONG);
+    // Alone, and beside a target that needs the motion.
+    for targets in ["iso", "iso,csv"] {
+        room.says(&format!("compile long.cut --force -t {targets} -o out/ {BITES}"), DONE);
+        insta::assert_snapshot!("cut_file_in_bites", room.text("out/long.iso"));
+    }
+    // Read again, it cuts the same in the same windows; a split piece is open there, and comes in each of its windows.
+    let info = room.says(&format!("info out/long.iso {BITES}"), DONE);
+    assert!(info.contains("  pieces     7\n") && info.contains("3 windows of a conveyor"), "{info}");
+    assert!(info.contains("9 (1 closed, 8 open)"), "{info}");
+    for options in ["", BITES] {
+        room.says(&format!("compile out/long.iso --force -o again.csv {options}"), DONE);
+        room.says(&format!("verify again.csv --source out/long.iso {options}"), DONE);
+    }
+    room.write("holed.cut", HOLED.as_bytes());
+    for options in ["--set sheet.copies=2", "--set sheet.scale_x=1.03", "--set bite.overlap_mm=0", "--pieces 2"] {
+        for file in ["long.cut", "holed.cut"] {
+            room.says(&format!("compile {file} --force -t iso -o some.iso {BITES} {options}"), DONE);
+            room.says(&format!("verify some.iso --source {file} {BITES} {options}"), DONE);
+        }
+    }
+}
+
+#[test]
+fn damage_to_a_cut_file_in_bites_is_found() {
+    let room = Room::with("long.cut", LONG);
+    room.says(&format!("compile long.cut -t iso -o right.iso {BITES}"), DONE);
+    let text = room.text("right.iso");
+    let windows: Vec<&str> = text.split("N2*\n").collect();
+    let [head, first, second, third] = windows[..] else { panic!("three windows: {text}") };
+    let swapped = [head, first, &third.replace("M0*\n", ""), &format!("{second}M0*\n")].join("N2*\n");
+    let left_out = [head, first, third].join("N2*\n");
+    let damages = [
+        ("an advance a tenth longer", "verify/same-place", text.replacen("ZX3470*", "ZX3471*", 1)),
+        ("an advance without its event", "verify/format", text.replacen("ZX3470*\nM69*\n", "ZX3470*\n", 1)),
+        ("an advance without its length", "verify/same", text.replacen("ZX3470*\n", "", 1)),
+        ("two windows exchanged", "verify/same", swapped),
+        ("a window left out", "verify/complete", left_out),
+        (
+            "halves that end on the border",
+            "verify/overlap",
+            text.replacen("X3713Y2000*\nX3703Y2000*", "X3650Y2000*", 1),
+        ),
+        ("halves that do not reach each other", "verify/complete", {
+            text.replacen("X3713Y2000*\nX3703Y2000*", "X3500Y2000*", 1)
+        }),
+        ("halves that stay on the line", "verify/joint", text.replace("Y2017.84*", "Y2000*")),
+        ("halves that veer into the part", "verify/overcut-part", text.replace("Y2017.84*", "Y1982.16*")),
+    ];
+    for (name, rule, damaged) in damages {
+        assert_ne!(damaged, text, "{name}");
+        room.write("wrong.iso", damaged.as_bytes());
+        let said = room.says(&format!("verify wrong.iso --source long.cut {BITES}"), FAULTY);
+        assert!(said.contains(&format!("FAIL  {rule} ")), "{name}: {said}");
+    }
+    // The file is judged by the overlap and the conveyor of the profile.
+    let other = "--set bite.overlap_mm=8";
+    let said = room.says(&format!("verify right.iso --source long.cut {BITES} {other}"), FAULTY);
+    assert!(said.contains("FAIL  verify/overlap "), "{said}");
+    let said = room.says(&format!("verify right.iso --source long.cut {BITES} --set bite.match_mm=2"), FAULTY);
+    assert!(said.contains("FAIL  verify/joint "), "{said}");
 }
 
 /// A program of other rows.

@@ -1,10 +1,11 @@
 //! Verification of a cut file that was written from a marker: read again, it must state the same as the marker.
 //!
-//! Both become lists of statements in file order and are compared one by one. The reader knows only the spelling of our own
-//! writer; any other block is a bad block.
+//! Both become lists of statements in file order and are compared one by one. The cuts of split pieces are also judged by
+//! the outline as drawn. The reader knows only the spelling of our own writer; any other block is a bad block.
 
 mod reader;
 mod said;
+mod sections;
 
 use self::reader::Reader;
 use self::said::expected;
@@ -54,6 +55,7 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
         }
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
+    findings.extend(sections::check(&found, marker, &job.profile, ROUNDING * unit * 2.0_f64.sqrt() + PLACE_EPSILON));
     sort(&mut findings);
     Verdict { findings, ..Verdict::default() }
 }

@@ -85,6 +85,13 @@ impl<'a> Reader<'a> {
                 b"M0" => break,
                 b"M01" => said.push(Said::Event(Event::Stop)),
                 b"M69" => said.push(Said::Event(Event::Advance)),
+                // The length of the advance behind it.
+                [b'Z', b'X', number @ ..] => {
+                    said.push(Said::Advance(decimal(number)? * self.unit));
+                    if self.block()? != b"M69" {
+                        return None;
+                    }
+                }
                 b"M31" => said.push(self.text()?),
                 [b'N', number @ ..] => {
                     (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::geom::{Heading, Point, angle};
 use crate::ir::Marker;
-use crate::ir::list::Joint;
+use crate::ir::list::{Joint, Range};
 use crate::ir::marker::{Event, NotchKind, Piece};
 use crate::ir::toolpath;
 use crate::ir::verdict::Sighting;
@@ -20,8 +20,15 @@ const FEED_EPSILON: f64 = 1e-6;
 pub(super) enum Said {
     Piece(u32),
     Event(toolpath::Event),
+    /// Advance of the cloth by so many mm.
+    Advance(f64),
     Hole(Point, u8),
-    Label { text: Vec<u8>, mirrored: Option<Vec<u8>>, at: Option<Point>, direction: Option<f64> },
+    Label {
+        text: Vec<u8>,
+        mirrored: Option<Vec<u8>>,
+        at: Option<Point>,
+        direction: Option<f64>,
+    },
     Slit(Cut),
     Bar(Cut),
     Contour(Cut),
@@ -46,6 +53,7 @@ impl Said {
         let apart = |a: Point, b: Point| (a - b).norm();
         match (self, other) {
             (Self::Hole(a, tool), Self::Hole(b, other)) if tool == other => Some(apart(*a, *b)),
+            (Self::Advance(one), Self::Advance(other)) => Some((one - other).abs()),
             (
                 Self::Label { text, mirrored, at, direction },
                 Self::Label { text: t, mirrored: m, at: a, direction: d },
@@ -77,7 +85,7 @@ impl Said {
             Self::Hole(at, _) => (*at, 0),
             Self::Slit(cut) | Self::Bar(cut) | Self::Contour(cut) => (*cut.points.first()?, cut.block),
             Self::Label { at, .. } => ((*at)?, 0),
-            Self::Piece(_) | Self::Event(_) | Self::Field(..) => return None,
+            Self::Piece(_) | Self::Event(_) | Self::Advance(_) | Self::Field(..) => return None,
         };
         Some(Sighting::missing(point, block))
     }
@@ -85,7 +93,10 @@ impl Said {
 
 /// Statements of a marker, in the order in which they are written.
 pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
-    let is_cut = |piece: &Piece| !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty());
+    let is_cut = |piece: &Piece| {
+        let is_empty = piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty();
+        piece.section.is_some() || !is_empty
+    };
     let text = |span| source.slice(span).trim_ascii().to_vec();
     let (mut said, mut waiting, mut fields) = (Vec::new(), (Vec::new(), Vec::new()), Vec::new());
     let last = marker.pieces.iter().rposition(is_cut);
@@ -122,14 +133,11 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
                 said.push(Said::Bar(cut(bar.from, bar.to, bar.span.block)));
             }
         }
-        for contour in &piece.contours {
-            let mut cut = Cut { points: marker.points(contour), feed: piece.feed, ..Cut::default() };
-            for (_, segment) in marker.list.walk(contour.range) {
-                cut.block = if cut.chords.is_empty() { segment.span.block } else { cut.block };
-                cut.chords.push((segment.percent, segment.joint));
-            }
-            said.push(Said::Contour(cut));
-        }
+        // The cuts of a section stand in place of an outline that is split.
+        let split = marker.split_outline(index);
+        let whole = piece.contours.iter().enumerate().filter(|(i, _)| Some(*i) != split);
+        let ranges = whole.map(|(_, contour)| contour.range).chain(marker.section_cuts(index));
+        said.extend(ranges.map(|range| Said::Contour(cut_along(marker, range, piece))));
         // A single list names the pieces of all copies.
         if !piece.fields.is_empty() && piece.copy < 2 {
             let named = matches!(piece.fields[0].letter, b'L' | b'N');
@@ -144,10 +152,20 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
     said
 }
 
-/// Event as a cut file states it: M69 gives no length.
+/// Cut along a range of the list of segments.
+fn cut_along(marker: &Marker, range: Range, piece: &Piece) -> Cut {
+    let mut cut = Cut { points: marker.list.points(range).into_owned(), feed: piece.feed, ..Cut::default() };
+    for (_, segment) in marker.list.walk(range) {
+        cut.block = if cut.chords.is_empty() { segment.span.block } else { cut.block };
+        cut.chords.push((segment.percent, segment.joint));
+    }
+    cut
+}
+
+/// Event as a cut file states it.
 fn said_event(event: &Event) -> Said {
-    Said::Event(match event.kind {
-        toolpath::Event::AdvanceBy(_) => toolpath::Event::Advance,
-        plain @ (toolpath::Event::Stop | toolpath::Event::Advance) => plain,
-    })
+    match event.kind {
+        toolpath::Event::AdvanceBy(mm) => Said::Advance(f64::from(mm)),
+        plain @ (toolpath::Event::Stop | toolpath::Event::Advance) => Said::Event(plain),
+    }
 }
