@@ -23,13 +23,13 @@ impl Edge<'_> {
             let distance = |path: &[Point]| distance(from, along, &Plunge::at_start(path, knife.width_mm));
             distance(&path).max(distance(&extended))
         };
-        let ways = [self.from_corner(chord, false, from), self.from_corner(chord + 1, true, from)];
+        let ways = [self.way_to_corner(chord, false, from), self.way_to_corner(chord + 1, true, from)];
         ways.into_iter().flatten().map(ahead).fold(0.0, f64::max)
     }
 
     /// Way of a blade that plunges at the first corner from a vertex on, forwards or backwards, and comes back past a place;
     /// `None` if that corner is farther than the blade is wide.
-    fn from_corner(&self, vertex: usize, forwards: bool, place: Point) -> Option<Vec<Point>> {
+    fn way_to_corner(&self, vertex: usize, forwards: bool, place: Point) -> Option<Vec<Point>> {
         let width = self.scene.job.profile.knife.width_mm;
         let (mut corner, mut way) = (vertex, (self.points[vertex] - place).norm());
         while !self.is_corner(corner) {
