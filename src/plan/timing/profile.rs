@@ -428,9 +428,6 @@ mod tests {
     use crate::plan::spline::ToleranceBand;
     use crate::plan::spline::{Curve, smooth};
 
-    /// Share of the runs that are tried where time matters more.
-    const ONE_IN: u64 = if cfg!(feature = "heavy") { 1 } else { 10 };
-
     /// A path of straights and bends from 0.3 mm to 3 m.
     fn path(random: &mut ChaCha8Rng) -> Vec<Point> {
         let length = 0.3 * 10_f64.powf(random.random_range(0.0..4.0));
@@ -461,7 +458,7 @@ mod tests {
         let whole = Windows { size: usize::MAX, ..WINDOWS };
         let small = Windows { size: 2 * WINDOWS.overlap, ..WINDOWS };
         let mut divided = 0;
-        for seed in 0..60 / ONE_IN {
+        for seed in 0..6 {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let mut points = path(&mut random);
             for _ in 0..3 {
@@ -475,7 +472,7 @@ mod tests {
             let [at_once, by_window] = [whole, small].map(|w| problem.fastest(w).expect("a motion").duration());
             assert!((by_window / at_once - 1.0).abs() < 1e-3, "seed {seed}: {by_window} s against {at_once} s");
         }
-        assert!(3 * divided > 60 / ONE_IN, "only {divided} of them are divided");
+        assert!(divided > 2, "only {divided} of them are divided");
     }
 
     /// Expects that twice the knots make no run faster by more than a fiftieth.
@@ -494,11 +491,11 @@ mod tests {
 
     #[test]
     fn twice_the_knots_make_no_run_of_a_point_faster_by_more_than_a_fiftieth() {
-        check_knots((0..1000 / ONE_IN).step_by(2));
+        check_knots((0..100).step_by(2));
     }
 
     #[test]
     fn twice_the_knots_make_no_run_of_a_blade_faster_by_more_than_a_fiftieth() {
-        check_knots((1..1000 / ONE_IN).step_by(2));
+        check_knots((1..100).step_by(2));
     }
 }
