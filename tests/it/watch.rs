@@ -211,34 +211,42 @@ fn the_overview_takes_up_other_targets_while_a_file_still_waits() {
     end(watch);
 }
 
+/// Checks what a watch does that is given its folder by a name.
+fn check_name(name: &str) {
+    let hot = HotFolder::new();
+    let root = hot.room.path().file_name().expect("a name").to_string_lossy().into_owned();
+    std::os::unix::fs::symlink("nowhere", hot.at("in/link.cut")).expect("writable");
+    hot.put("early.cut", &square(500));
+    hot.put("cutc.toml", "target = \"gcode\"\n");
+    let watch = hot.watch_as(&name.replace("ROOM", &root), "");
+    hot.wait_for("what was there is found", |hot| hot.has("early.ngc"));
+    hot.put("sub/late.cut", &square(600));
+    hot.put("bad.cut", JUNK);
+    hot.wait_for("what comes is heard", |hot| hot.has("sub/late.ngc") && hot.has("bad.cut.report.txt"));
+    // It is looked through meanwhile.
+    thread::sleep(Duration::from_secs(3));
+    end(watch);
+    let names: Vec<String> = files(&hot.at("out")).into_keys().collect();
+    let expected = [
+        "bad.cut.report.txt",
+        "cutc.jsonl",
+        "early.ngc",
+        "early.ngc.meta.json",
+        "sub/late.ngc",
+        "sub/late.ngc.meta.json",
+    ];
+    assert_eq!(names, expected, "{name}: {}", hot.text("said"));
+    assert!(!hot.text("said").contains("left alone"), "{}", hot.text("said"));
+}
+
 #[test]
 fn the_folder_may_have_any_name_and_links_to_nothing_in_it() {
-    for name in ["./in", "in/", "../ROOM/in"] {
-        let hot = HotFolder::new();
-        let root = hot.room.path().file_name().expect("a name").to_string_lossy().into_owned();
-        std::os::unix::fs::symlink("nowhere", hot.at("in/link.cut")).expect("writable");
-        hot.put("early.cut", &square(500));
-        hot.put("cutc.toml", "target = \"gcode\"\n");
-        let watch = hot.watch_as(&name.replace("ROOM", &root), "");
-        hot.wait_for("what was there is found", |hot| hot.has("early.ngc"));
-        hot.put("sub/late.cut", &square(600));
-        hot.put("bad.cut", JUNK);
-        hot.wait_for("what comes is heard", |hot| hot.has("sub/late.ngc") && hot.has("bad.cut.report.txt"));
-        // It is looked through meanwhile.
-        thread::sleep(Duration::from_secs(3));
-        end(watch);
-        let names: Vec<String> = files(&hot.at("out")).into_keys().collect();
-        let expected = [
-            "bad.cut.report.txt",
-            "cutc.jsonl",
-            "early.ngc",
-            "early.ngc.meta.json",
-            "sub/late.ngc",
-            "sub/late.ngc.meta.json",
-        ];
-        assert_eq!(names, expected, "{name}: {}", hot.text("said"));
-        assert!(!hot.text("said").contains("left alone"), "{}", hot.text("said"));
-    }
+    // Side by side: most of the time is waiting.
+    thread::scope(|threads| {
+        for name in ["./in", "in/", "../ROOM/in"] {
+            threads.spawn(move || check_name(name));
+        }
+    });
     let hot = HotFolder::new();
     let mut within = Command::new(env!("CARGO_BIN_EXE_cutc"));
     let refused = within.args(["watch", "in", "-o", "in/"]).current_dir(hot.room.path()).output().expect("it starts");
