@@ -1,9 +1,9 @@
 //! Nesting: the closed lines around each line of a marker or a drawing, and the part that each line belongs to.
 //!
 //! A closed line holds a smaller one if a place well inside the smaller one is in it and most of the smaller one, as [`Hold`]
-//! defines, does not protrude. It holds an open line if the middle of its first segment or all of its vertices are in it. A
-//! line that an odd number of closed lines hold is an inner line: it bounds a cut-out of the part whose outline is the smallest
-//! around it. A closed line in a cut-out is a part again.
+//! defines, does not protrude. It holds an open line if the middle of its first segment or all of its vertices are in it; in a
+//! marker it also holds an open line of another group on its edge. A line that an odd number of closed lines hold is an inner
+//! line: it bounds a cut-out of the part whose outline is the smallest around it. A closed line in a cut-out is a part again.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -66,6 +66,8 @@ pub struct Nesting {
     lines: Vec<Line>,
     /// For each line in any other, the lines around it, the smallest first.
     around: BTreeMap<usize, Vec<u32>>,
+    /// Groups in whose lines something of another group lies.
+    holding: BTreeSet<usize>,
     /// The line at which the work budget was spent: nothing is known of it and of later ones.
     ended: Option<usize>,
 }
@@ -95,7 +97,19 @@ impl Nesting {
                 around.insert(line, held_by);
             }
         }
-        Self { lines: search.lines, around, ended }
+        let mut nesting = Self { lines: search.lines, around, ended, ..Self::default() };
+        nesting.find_holding();
+        nesting
+    }
+
+    fn find_holding(&mut self) {
+        let group = |line: usize| self.lines[line].group;
+        let pairs =
+            self.around.iter().flat_map(|(&line, outer)| outer.iter().map(move |&outer| [line, outer as usize]));
+        self.holding = pairs
+            .filter(|&[line, outer]| group(line) != group(outer))
+            .map(|[_, outer]| group(outer) as usize)
+            .collect();
     }
 
     /// Nesting of the contours of a marker, where edges of different pieces within `band` mm are one edge: its lines are those
@@ -159,6 +173,7 @@ impl Nesting {
             outer.retain(|&outer| !over.contains(&of(outer)));
         }
         self.around.retain(|_, outer| !outer.is_empty());
+        self.find_holding();
     }
 
     /// The lines.
@@ -220,10 +235,13 @@ impl Nesting {
         widest.or_else(|| self.of_group(group).next())
     }
 
-    /// The other groups within whose closed lines a group lies, in order; its widest line represents it.
+    /// The other groups within whose closed lines a group lies, in order. Its widest line represents it, and its open lines do
+    /// if nothing of another group lies in it: two groups never lie in each other.
     pub fn holders(&self, group: usize) -> Vec<usize> {
         let Some(outline) = self.widest(group) else { return Vec::new() };
-        let others = self.around(outline).map(|line| self.lines[line].group as usize);
+        let open = self.of_group(group).filter(|&line| !self.lines[line].is_closed && !self.holding.contains(&group));
+        let around = open.chain([outline]).flat_map(|line| self.around(line));
+        let others = around.map(|line| self.lines[line].group as usize);
         let mut holders: Vec<usize> = others.filter(|&holder| holder != group).collect();
         holders.sort_unstable();
         holders.dedup();
@@ -346,6 +364,9 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
             // The first segment of an open line may cross a bay of the outline that holds all its vertices.
             let mut left: Vec<u32> = candidates.iter().copied().filter(|one| !holds(&holders, one)).collect();
             let mut deep: Vec<u32> = Vec::new();
+            let own = self.lines[line].group;
+            let is_edge = |candidate: u32| self.hold.band > 0.0 && self.lines[candidate as usize].group != own;
+            let reach = self.hold.band.max(ON_OUTLINE);
             for &point in points.iter() {
                 if left.is_empty() {
                     break;
@@ -353,11 +374,12 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
                 if !self.work.spend(regions.cost_at(point)) {
                     return None;
                 }
-                let owners: Vec<(u32, f64)> = regions.depths_about(point, ON_OUTLINE).collect();
-                left.retain(|candidate| owners.iter().any(|(owner, _)| owner == candidate));
+                let owners: Vec<(u32, f64)> = regions.depths_about(point, reach).collect();
+                let least = |candidate: u32| if is_edge(candidate) { -reach } else { -ON_OUTLINE };
+                left.retain(|one| owners.iter().any(|&(owner, depth)| owner == *one && depth > least(*one)));
                 deep.extend(owners.iter().filter(|(_, depth)| *depth >= ON_OUTLINE).map(|(owner, _)| owner));
             }
-            around.extend(left.into_iter().filter(|candidate| deep.contains(candidate)));
+            around.extend(left.into_iter().filter(|&candidate| is_edge(candidate) || deep.contains(&candidate)));
         }
         if self.hold.share > 0.0 && !around.is_empty() {
             if !self.work.spend(SAMPLES * regions.cost_at(place)) {

@@ -1,5 +1,5 @@
 //! Duplicate lines: pairs in which each line lies within reach of the other along its whole length. Such a pair is one line
-//! drawn twice, since parts never share all of their edges.
+//! drawn twice, since parts never share all of their edges. A line that lies on another one draws a part of it again.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
@@ -56,6 +56,34 @@ impl<Points: Fn(usize) -> Vec<Point>, Alike: Fn(usize, usize) -> bool> Lines<Poi
             }
         }
         twins
+    }
+
+    /// Finds lines that lie within `reach` of another one, mm, along their whole length: each with the first such line.
+    /// `lying` are the lines to look at, `may_be` tells of one of them and another line whether that one may lie there.
+    pub fn lying_on(&self, lying: &[usize], reach: f64, work: &mut Budget) -> Vec<[usize; 2]> {
+        let mut found = Vec::new();
+        if lying.is_empty() {
+            return found; // as nearly always
+        }
+        let boxes = Boxes::new(self.extents.clone());
+        for &line in lying {
+            let own = self.extents[line];
+            if !work.spend(boxes.cost_near(&own)) {
+                break;
+            }
+            let is_around = |other: &usize| *other != line && self.extents[*other].grown(reach).covers(&own);
+            let mut around: Vec<usize> = boxes.near(own.grown(reach)).filter(is_around).collect();
+            around.sort_unstable();
+            let path = Path::new((self.points)(line));
+            let lies_on = |other: &usize| {
+                let points = (self.points)(*other);
+                work.spend(points.len()) && path.lies_along(&Path::new(points), reach, work)
+            };
+            found.extend(
+                around.into_iter().filter(|&other| (self.may_be)(line, other)).find(lies_on).map(|on| [line, on]),
+            );
+        }
+        found
     }
 }
 

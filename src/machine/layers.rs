@@ -21,6 +21,11 @@ const WORDS: [(PenUse, &[&str]); 3] = [
 /// Words for a knife that name holes in parts. If no other layer is a knife, the parts are on layers without a known use.
 const HOLES: [&str; 5] = ["CUTOUT", "CUTOUTS", "AUSSCHNITT", "AUSSCHNITTE", "INNENKONTUR"];
 
+/// Words for a pen that name notches and holes.
+const MARKS: [&str; 12] = [
+    "NOTCH", "NOTCHES", "KNIP", "KNIPS", "CRAN", "CRANS", "TACCA", "TACCHE", "PIQUETE", "PIQUETES", "DRILL", "BOHRUNG",
+];
+
 /// Words that void a word for a knife in the same name: the line is not cut, not cut through, or a note about cuts.
 #[rustfmt::skip] // a table
 const VOIDING: [&str; 19] = [
@@ -150,6 +155,11 @@ fn by_name(name: &str) -> Option<PenUse> {
 fn names_holes_alone(name: &str) -> bool {
     let is_knife = |word: &str| WORDS.iter().any(|(used, known)| *used == PenUse::Knife && known.contains(&word));
     words(name).iter().filter(|word| is_knife(word)).all(|word| HOLES.contains(&&**word))
+}
+
+/// True if a name says that the lines of the layer are notches or holes.
+pub fn names_marks(name: &str) -> bool {
+    has_word(name, &MARKS)
 }
 
 /// True if a name contains one of some words, in capitals.

@@ -8,7 +8,6 @@
 use super::doubts::SHORTEST_NAMED;
 use super::frame;
 use super::line::{Class, Line, SHORTEST_NOTCH};
-use super::pens::Use;
 use super::sheet::Sheet;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, polyline, ring};
@@ -106,7 +105,7 @@ pub(super) fn border(sheet: &Sheet, job: &Job) -> Option<usize> {
         let is_border = part_line.class == Class::Part
             && part_line.is_rectangle(sheet.band())
             && inner.area >= LEAST_SINGLE_FILL * part_line.area;
-        let may_be = is_border && !inner.is_cut && inner.usage != Use::Drawn;
+        let may_be = is_border && !inner.is_cut && !inner.usage.is_drawn();
         (may_be && is_of_a_part(sheet, i)).then_some(part)
     };
     let by_area = |a: &usize, b: &usize| sheet.lines[*a].area.total_cmp(&sheet.lines[*b].area).then(b.cmp(a));
@@ -129,7 +128,7 @@ fn holds_a_lay(sheet: &Sheet, part: usize) -> bool {
     }
     let mut held = Extent::EMPTY;
     let is_held = |i: &usize| sheet.lines[*i].class == Class::Inner && sheet.nest.outermost(*i) == Some(part);
-    let is_left = |line: &&Line| !line.is_cut && line.usage != Use::Drawn;
+    let is_left = |line: &&Line| !line.is_cut && !line.usage.is_drawn();
     let inner = (0..sheet.lines.len()).filter(is_held).map(|i| &sheet.lines[i]).filter(is_left);
     let largest = inner.fold(0.0, |largest: f64, line| {
         held.join(&line.extent);

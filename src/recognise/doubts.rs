@@ -53,7 +53,7 @@ fn open_outlines(sheet: &Sheet) -> BTreeMap<usize, usize> {
     let is_told = |outer: usize, inner: usize| {
         let [outer, inner] = [outer, inner].map(|i| &sheet.lines[i]);
         let is_lost = inner.usage.is_knife() && !inner.is_cut;
-        (outer.usage != Use::Drawn || is_lost) && outer.class != Class::Frame
+        (!outer.usage.is_drawn() || is_lost) && outer.class != Class::Frame
     };
     let outer = |i: usize| sheet.nest.outermost(i).filter(|&outer| outer != i && is_told(outer, i));
     let holders = sheet.indices(is_held).into_iter().filter_map(outer);
@@ -124,7 +124,7 @@ pub(super) fn how_to_close(gap: f64) -> Option<String> {
 /// Parts with open lines beside or all around them: each may be the seam line of an incomplete outline, or another line in it.
 /// Nothing is cut until the user says what those lines are, or leaves the parts out.
 fn maybe_seams(sheet: &Sheet, owners: &[usize], job: &Job, out: &mut Diagnostics) {
-    let is_left = |&line: &usize| !sheet.lines[line].is_cut && sheet.lines[line].usage != Use::Drawn;
+    let is_left = |&line: &usize| !sheet.lines[line].is_cut && !sheet.lines[line].usage.is_drawn();
     let doubtful = sheet.remains.iter().filter(|remains| !remains.is_sure && sheet.lines[remains.inner].is_cut);
     for remains in doubtful.filter(|_| job.profile.drawing.beside == Beside::Outline) {
         let lines: Vec<usize> = remains.lines.iter().copied().filter(is_left).collect();

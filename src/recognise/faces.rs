@@ -35,7 +35,7 @@ pub(super) fn put_in_order(drawing: &mut Drawing, uses: &[Use], reach: f64, divi
     let is_asked = |k: &usize| {
         let pen = usize::from(drawing.strokes[*k].pen);
         drawing.pens.get(pen).is_some_and(|pen| pen.is_layer)
-            && !matches!(uses.get(pen), None | Some(Use::Ignore | Use::Drawn))
+            && !matches!(uses.get(pen), None | Some(Use::Ignore | Use::Drawn | Use::Marks))
     };
     let place = |vertex: u32| drawing.vertices[vertex as usize].at;
     let is_open = |k: &usize| {

@@ -104,6 +104,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     };
     sheet.sort_out(job);
     sheet.decide(job);
+    twins::mark_parts(&mut sheet.lines, &sheet.vertices, sheet::band(sheet.unit), &mut work);
     shared::say_doubled(&sheet.moved.doubled, diagnostics);
     shared::refuse(&shared, &sheet.lines, &sheet.vertices, diagnostics);
     let [open, broken] = doubts::doubtful_outlines(&sheet);

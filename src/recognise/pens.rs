@@ -16,6 +16,8 @@ pub(super) enum Use {
     Tool,
     /// Edges of parts and marks that are only drawn.
     Drawn,
+    /// Notches and holes by the name of their layer: only notches are cut, and others are reported.
+    Marks,
     /// Ignored lines.
     Ignore,
 }
@@ -24,6 +26,11 @@ impl Use {
     /// True if lines are cut by this use.
     pub(super) fn is_knife(self) -> bool {
         matches!(self, Self::Knife | Self::Tool)
+    }
+
+    /// True if lines of this use are drawn, but for notches.
+    pub(super) fn is_drawn(self) -> bool {
+        matches!(self, Self::Drawn | Self::Marks)
     }
 }
 
@@ -45,6 +52,7 @@ pub(super) fn uses(pens: &[Pen], job: &Job) -> Vec<Use> {
             if pen.is_layer {
                 match of_layers.next().flatten() {
                     Some((PenUse::Knife, _)) => Use::Tool,
+                    Some((PenUse::Pen, Known::Named)) if layers::names_marks(&pen.name) => Use::Marks,
                     Some((used, _)) => used.into(),
                     None => Use::Unsaid,
                 }

@@ -117,7 +117,7 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
     // Closed lines that stand on an outline have a warning of their own.
     let standing = standing(sheet);
     let has_one_main_part = has_one_main_part(sheet);
-    let is_left = |line: &Line| !line.is_cut && line.usage != Use::Drawn;
+    let is_left = |line: &Line| !line.is_cut && !line.usage.is_drawn();
     let is_inner = |&i: &usize| {
         let line = &sheet.lines[i];
         let is_far_seam =
@@ -187,7 +187,7 @@ fn single_lines(others: &[(usize, &[&Line])], sheet: &Sheet, job: &Job, out: &mu
 fn seams_of_knives(sheet: &Sheet, out: &mut Diagnostics) {
     let is_left = |&i: &usize| {
         let line = &sheet.lines[i];
-        let is_drawn = |part: usize| sheet.lines[part].usage == Use::Drawn && sheet.lines[part].is_closed;
+        let is_drawn = |part: usize| sheet.lines[part].usage.is_drawn() && sheet.lines[part].is_closed;
         line.class == Class::Seam
             && line.usage.is_knife()
             && !line.is_cut
@@ -274,7 +274,7 @@ fn crosses(sheet: &Sheet, out: &mut Diagnostics) {
 /// Small closed lines, and long open ones, that are in no part.
 fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
     let standing = standing(sheet);
-    let is_small = |line: &Line| line.class == Class::SmallOutline && !line.is_cut && line.usage != Use::Drawn;
+    let is_small = |line: &Line| line.class == Class::SmallOutline && !line.is_cut && !line.usage.is_drawn();
     let small = sheet.indices(is_small).into_iter().filter(|i| !standing.contains(i));
     let small: Vec<&Line> = small.map(|i| &sheet.lines[i]).collect();
     if let Some(first) = small.first() {
@@ -320,7 +320,7 @@ pub(super) fn open_lines(sheet: &Sheet) -> Vec<usize> {
     let told: BTreeSet<usize> = sheet.from_edges.iter().filter(is_told).map(|edge| edge.line).collect();
     let is_long = |line: &Line| {
         let is_open = matches!(line.class, Class::Other | Class::FromEdge);
-        is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
+        is_open && !line.is_cut && !line.usage.is_drawn() && line.length >= SHORTEST_NAMED
     };
     let parts = LazyCell::new(|| Parts::of(sheet));
     let is_open = |&i: &usize| !told.contains(&i) && is_long(&sheet.lines[i]) && !parts.hold(&sheet.lines[i]);
@@ -360,7 +360,7 @@ fn frame_or_part(sheet: &Sheet, job: &Job) -> Option<Diagnostic> {
 fn outside_frames(sheet: &Sheet, out: &mut Diagnostics) {
     let is_left = |&i: &usize| {
         let line = &sheet.lines[i];
-        line.class == Class::Outside && !line.is_cut && line.usage != Use::Drawn && sheet.nest.parent(i).is_none()
+        line.class == Class::Outside && !line.is_cut && !line.usage.is_drawn() && sheet.nest.parent(i).is_none()
     };
     let left: Vec<usize> = (0..sheet.lines.len()).filter(is_left).collect();
     let by_area = |a: &&usize, b: &&usize| sheet.lines[**a].area.total_cmp(&sheet.lines[**b].area).then(b.cmp(a));
@@ -466,7 +466,7 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
         n => format!("the file draws {noun}s {listed}{}", if n > SHOWN_PENS { " and others" } else { "" }),
     };
     let (option, unit) = if has_layers { ("layers", "") } else { ("cut-pens", " (`--set hpgl.unit=1`)") };
-    let is_out = |line: &Line| matches!(line.usage, Use::Drawn | Use::Ignore);
+    let is_out = |line: &Line| matches!(line.usage, Use::Drawn | Use::Marks | Use::Ignore);
     if has_layers && sheet.lines.iter().all(is_out) {
         let hint = format!("names of layers, `--layers` or `drawing.layers` leave all lines out: {drawn}");
         return finding.hint(hint).hint("`--layers NAME` makes a layer the knife");

@@ -41,7 +41,7 @@ pub(super) fn edges(drawing: &Drawing, uses: &[Use]) -> Vec<SharedEdge> {
     let is_asked = |pen: u16| {
         let pen = usize::from(pen);
         drawing.pens.get(pen).is_some_and(|pen| pen.is_layer)
-            && !matches!(uses.get(pen), Some(Use::Ignore | Use::Drawn))
+            && !matches!(uses.get(pen), Some(Use::Ignore | Use::Drawn | Use::Marks))
     };
     let mut strokes: Vec<(u16, [Point; 2], SharedEdge)> = Vec::new();
     for stroke in drawing.strokes.iter().filter(|stroke| is_asked(stroke.pen)) {

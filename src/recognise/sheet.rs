@@ -244,7 +244,7 @@ impl Sheet {
     /// Makes parts of the outermost lines of a pen that is a knife, whatever other pens draw around them, such as the edge of a
     /// table.
     fn find_parts_of_knives(&mut self, work: &mut Budget) {
-        let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
+        let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage.is_drawn());
         let is_knife = |line: &Line| line.class == Class::Inner && line.usage.is_knife() && line.size() > SMALL_OUTLINE;
         let mut parts = self.indices(is_knife);
         parts.retain(|&i| is_drawn(i));
@@ -318,7 +318,7 @@ impl Sheet {
             };
             let may_be = match line.usage {
                 Use::Unsaid | Use::Knife | Use::Tool => true,
-                Use::Drawn => line.class == Class::Notch,
+                Use::Drawn | Use::Marks => line.class == Class::Notch,
                 Use::Ignore => false,
             };
             // A frame that is cut would make cut-outs of all parts, and one cut is enough for a line.

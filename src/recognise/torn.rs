@@ -31,7 +31,9 @@ pub(super) fn first(sheet: &Sheet) -> Option<Diagnostic> {
         Closing::Bridged(..) | Closing::Edge(_) => false,
     };
     let may_be_outline = |line: &&Line| {
-        line.size() > SMALL_OUTLINE && !matches!(line.usage, Use::Drawn | Use::Ignore) && line.class != Class::Again
+        line.size() > SMALL_OUTLINE
+            && !matches!(line.usage, Use::Drawn | Use::Marks | Use::Ignore)
+            && line.class != Class::Again
     };
     let mut outlines = sheet.lines.iter().filter(may_be_outline).filter(is_open);
     let told = |line: &Line| {

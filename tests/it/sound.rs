@@ -23,6 +23,8 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("dense-hole.cut", ""),            // the same around a hole narrower than the blade
     ("dense-keyhole.cut", "knife.width_mm=2 knife.back_mm=1"), // its tight curve between two corners
     ("dense-ring.cut", LONG_OVERLAPS), // a ring that is longer than the way along it
+    ("edge-again.cut", ""),            // an edge of one part that another piece cuts again
+    ("edge-again.dxf", ""),            // an edge on the layer of the knife that is drawn again
     ("flat-ellipse.cut", ""),          // the end of a cut in a tight curve
     ("fold-in-a-curve.dxf", ""),       // a curve that goes on over the fold
     ("inch-hole.cut", ""),             // a ring whose end must run over its start
@@ -46,6 +48,7 @@ const DRAWINGS: &[(&str, &str)] = &[
     ("nibbled-round.cut", "c.range_deg=[-185,185]"), // a nibbled circle that ends over its start
     ("nibbled.cut", "knife.tight_curves=\"nibble\""), // a spike cut by plunges
     ("noisy-circle.cut", ""),                    // a digitised circle of 5 mm
+    ("notch-of-another.cut", ""),                // a notch of a part that stands under the number of the next one
     ("open-bend.cut", "knife.width_mm=2.5 path.fit=\"polygon\""), // a start that bows away from the bend ahead
     ("part-around-a-cut-out.dxf", OVERLAPPING),  // a part over another, around a cut-out of that
     ("polygon.cut", ""),                         // edges shorter than the blade

@@ -12,6 +12,7 @@
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 //! - A closed contour runs beside another one all the way, nearer than edges of different parts that are one edge
 //!   (`nest.band_mm`): another vertex or a rounding more, and it would be cut twice as well.
+//! - An open contour lies on a closed one all along: a part of that is cut twice.
 //!
 //! A drawing does not say how often it is cut: what it repeats within a piece is cut once.
 
@@ -83,6 +84,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let boxed = Boxed::of(marker);
     let mut repeats = twice(marker, &boxed, diagnostics);
     repeats.spared.extend(beside(marker, &boxed, &repeats.all, job.profile.band(marker.unit), diagnostics));
+    lying(marker, &boxed, diagnostics);
     // The last first, so that the places of the others stay.
     for &[piece, contour] in repeats.spared.iter().rev() {
         marker.pieces[piece as usize].contours.remove(contour as usize);
@@ -373,6 +375,32 @@ fn beside(
         diagnostics.push(search_ended("some contours may run beside others and be cut twice"));
     }
     spared
+}
+
+/// Reports open contours that lie on a closed one all along.
+fn lying(marker: &Marker, boxed: &Boxed, diagnostics: &mut Diagnostics) {
+    let contour = |k: usize| {
+        let [piece, contour] = boxed.places[k];
+        &marker.pieces[piece as usize].contours[contour as usize]
+    };
+    let open: Vec<usize> = (0..boxed.places.len()).filter(|&k| !contour(k).closed).collect();
+    let all = Lines {
+        extents: boxed.extents.clone(),
+        points: |k: usize| marker.list.points(contour(k).range).into_owned(),
+        may_be: |_, other: usize| contour(other).closed,
+    };
+    let mut work = Budget::of_a_marker();
+    for [line, on] in all.lying_on(&open, ON_IT, &mut work) {
+        let [number, other] = [line, on].map(|k| marker.pieces[boxed.places[k][0] as usize].number);
+        let [span, before] = [line, on].map(|k| first(&marker.list, contour(k).range).span);
+        let block = before.block;
+        let message = format!("an open line of piece {number} lies on a contour of piece {other} in block {block}");
+        let finding = Diagnostic::new(&code::MARKER_TWICE, message).at(span).about(vec![number]);
+        diagnostics.push(finding.hint("delete it unless the cloth needs two cuts there"));
+    }
+    if work.is_spent() {
+        diagnostics.push(search_ended("some lines may lie on contours and be cut twice"));
+    }
 }
 
 /// Quick test for boxes that nearly agree; also true if many begin side by side, so that a search must decide.
