@@ -326,10 +326,9 @@ impl Set {
                 let message =
                     format!("INSERTs put {} of {count} pieces on each other: they are no places", on_others.count);
                 let finding = Diagnostic::new(&code::DXF_NO_PLACES, message);
-                making.out.push(
-                    finding
-                        .hint("each lies in a row once an INSERT; for a lay make a marker of them in the CAD system"),
-                );
+                making.out.push(finding.hint(
+                    "they lie in a row, as often as texts or INSERTs say; for a lay make a marker in the CAD system",
+                ));
                 self.placed = None;
                 self.count_inserts(placing);
                 return;

@@ -1,10 +1,14 @@
 //! Counts of elements that are not cut, reported once per kind.
 
+use super::style;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
 /// Maximum number of selectors named in a message.
 const MOST_NAMED: usize = 3;
+
+/// Properties that hide a part of what is drawn.
+const HIDING: [&str; 2] = [style::PROPERTIES[style::CLIP_PATH], style::PROPERTIES[style::MASK]];
 
 /// Counts, each with the location of the first element.
 #[derive(Debug, Default)]
@@ -65,11 +69,13 @@ impl Tally {
             say(&code::SVG_NO_LINE, Some(span), message, "if it must be cut, give it a stroke");
         }
         for (kind, count, span) in self.kinds {
-            let message = format!("`{kind}` is not read, and what it draws is not cut: {count} of them");
-            let hint = if kind == "text" {
-                "if letters must be cut, turn them into paths"
-            } else {
-                "if it must be cut, turn it into paths in the program that drew it"
+            let hides = HIDING.contains(&kind.as_str());
+            let does = if hides { "hides is cut" } else { "draws is not cut" };
+            let message = format!("`{kind}` is not read, and what it {does}: {count} of them");
+            let hint = match kind.as_str() {
+                "text" => "if letters must be cut, turn them into paths",
+                _ if hides => "apply it in the program that drew it, or look in the picture (`-t svg`) what is cut",
+                _ => "if it must be cut, turn it into paths in the program that drew it",
             };
             say(&code::SVG_LEFT_OUT, Some(span), message, hint);
         }
